@@ -1,11 +1,13 @@
 """The live view, without a browser: its camera, pictures, renders, paths and examples."""
 
+import re
 import signal
 import subprocess
 import sys
 import time
 import urllib.request
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +21,18 @@ from pymlt.pictures.tonemapping import encode_srgb, tonemap
 
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 
-from pymlt.viewing import lecture_examples, path_tables, shown, walk, world  # noqa: E402
+from pymlt.viewing import (  # noqa: E402
+    formula,
+    labels,
+    lecture_chains,
+    lecture_examples,
+    lecture_mixing,
+    lecture_products,
+    path_tables,
+    shown,
+    walk,
+    world,
+)
 from pymlt.viewing.camera import Pose, SceneCamera  # noqa: E402
 from pymlt.viewing.frame import Frame  # noqa: E402
 from pymlt.viewing.live import Algorithm, LiveRender  # noqa: E402
@@ -39,6 +52,10 @@ def test_bad_arguments_are_one_line(capsys, tmp_path):
     assert "token" in capsys.readouterr().err
     assert main(["view", "no-such-scene"]) == 2
     assert main(["view", "ring", "--port", "many"]) == 2
+    assert main(["view"]) == 2
+    assert "--lecture for the examples" in capsys.readouterr().err
+    for more in (["ring"], ["--size", "8x8"], ["--sensor", "0"], ["-p", "max_depth=3"]):
+        assert main(["view", "--lecture", *more]) == 2
 
 
 @pytest.mark.parametrize(
@@ -222,6 +239,22 @@ def test_a_small_picture_is_enlarged_by_whole_pixels():
     assert large.shape == (4, 7, 1)
     assert (large[:2, :3] == 0).all()
     assert large[-1, -1] == 5
+
+
+@pytest.mark.parametrize("scale", [0.1, 0.6, 1.5])
+@pytest.mark.parametrize("pixel", [(20, 30), (0, 0), (63, 47)])
+def test_the_mark_leaves_its_pixel_free(pixel, scale):
+    grey = np.full((48, 64, 3), 128, np.uint8)
+    picture = shown.marked(grey, pixel, scale)
+    x, y = pixel
+    changed = (picture != grey).any(axis=2)
+    rows, columns = np.nonzero(changed)
+    assert not changed[max(0, y - 1) : y + 2, max(0, x - 1) : x + 2].any()
+    assert set(np.unique(picture[changed])) == {0, 255}
+    most = max(35 * scale, 6) + 3
+    assert abs(rows - y).max() <= most
+    assert abs(columns - x).max() <= most
+    assert (grey == 128).all()
 
 
 def test_the_error_map_is_relative():
@@ -440,6 +473,17 @@ def test_shapes_become_triangles():
     assert all(s["faces"].max() < len(s["positions"]) for s in shapes)
 
 
+def test_labels_that_would_lie_on_each_other_are_one():
+    places = np.array([[0, 0, 5], [0.1, 0, 6], [2, 0, 5], [0, 0, 9.0], [0, 0.3, 5], [0, 0, -1]])
+    camera = SimpleNamespace(position=(0, 0, 0), wxyz=(1, 0, 0, 0), image_height=800, fov=1.2)
+    at = labels.seen_at(places, camera)
+    scale = 400 / np.tan(0.6)
+    np.testing.assert_allclose(at[[1, 4]], [(0.1 / 6 * scale, 0), (0, 0.3 / 5 * scale)])
+    assert labels.overlapping(at) == [[0, 1, 3], [2], [4], [5]]
+    camera.position, camera.wxyz = (-5, 0, 5), np.array([1, 0, 1, 0]) / np.sqrt(2)  # to the right
+    assert labels.overlapping(labels.seen_at(places, camera)) == [[0, 2], [1], [3], [4], [5]]
+
+
 def test_large_meshes_are_simplified():
     shapes = built_in("ring").triangles()
     ring = max(shapes, key=lambda s: len(s["faces"]))
@@ -471,25 +515,66 @@ def test_examples_run_with_every_end_of_their_sliders(example):
                     assert np.isfinite(curve.y).all()
 
 
+def test_formulas_become_html():
+    assert formula.as_html("min(1, {f(y)}/{p_{i}^{−d}})") == (
+        'min(1, <span class="over"><span><i>f</i>(<i>y</i>)</span>'
+        "<span><i>p</i><sub><i>i</i></sub><sup>−<i>d</i></sup></span></span>)"
+    )
+    assert formula.as_html("a < b\nΣ") == "<i>a</i> &lt; <i>b</i><br>Σ"
+
+
+@pytest.mark.parametrize("example", lecture_examples.EXAMPLES, ids=lambda e: e.name)
+def test_every_formula_is_read_to_its_end_and_has_a_source(example):
+    assert example.formula
+    assert not set("{}_^") & set(formula.as_html(example.formula) + example.source)
+    assert re.search(r"(19|20)\d\d", example.source)
+
+
 def test_examples_say_what_the_lecture_says():
-    two = lecture_examples.two_states(9, 0.5).charts[0]
+    two = lecture_chains.two_states(9, 0.5).charts[0]
     exact, chains = (
         next(c.y for c in two.curves if c.name == f"from b, {n}") for n in ("exact", "chains")
     )
     np.testing.assert_allclose(chains, exact, atol=5 * 0.5 / np.sqrt(4000))
     assert exact[-1] == pytest.approx(0.9, abs=0.01)
-    assert "0.0 % of the samples" in lecture_examples.parabola(0.1, 0.9).text
-    histogram, truth = (c.y for c in lecture_examples.mixture(0.5, 0.1, 0.9).charts[0].curves)
+    assert "0.0 % of the samples" in lecture_chains.parabola(0.1, 0.9).text
+    histogram, truth = (c.y for c in lecture_chains.mixture(0.5, 0.1, 0.9).charts[0].curves)
     assert abs(histogram - truth).max() < 0.5
-    start = lecture_examples.start_up(0.9, 0.1).charts[0].curves
+    start = lecture_chains.start_up(0.9, 0.1).charts[0].curves
     assert abs(start[1].y - 0.5).max() < 5 * 0.39 / np.sqrt(4000)  # from the bootstrap
     assert start[0].y[5] > 0.7
-    peak, truth = (c.y for c in lecture_examples.adaptivity(0, 0.3).charts[0].curves)
+    peak, truth = (c.y for c in lecture_mixing.adaptivity(0, 0.3).charts[0].curves)
     assert peak[-1] > truth[-1] + 0.04
-    assert "0 % of the samples are on the right" in lecture_examples.ergodicity(0.3, 0).text
-    assert "has crossed 0 times" not in lecture_examples.ergodicity(0.3, 0.05).text
-    histogram, truth = (c.y for c in lecture_examples.tours(4, 0.1).charts[0].curves)
+    assert "0 % of the samples are on the right" in lecture_mixing.ergodicity(0.3, 0, 0).text
+    for uniform, bridge in ((0.05, 0), (0, 0.3)):
+        assert "has crossed 0 times" not in lecture_mixing.ergodicity(0.3, uniform, bridge).text
+    basic, extended = (c.y for c in lecture_chains.recording(3).charts[0].curves)
+    assert extended[0] < basic[0] - np.log10(2)
+    assert extended[-1] == pytest.approx(basic[-1], abs=0.1)
+    histogram, truth = (c.y for c in lecture_chains.tours(4, 0.1).charts[0].curves)
     assert abs(histogram - truth).max() < 0.5
+
+
+@pytest.mark.parametrize("example", [lecture_products.blur, lecture_products.reflection])
+def test_one_chain_estimates_many_integrals(example):
+    """A hundred times as many steps divide the error by about ten."""
+
+    def error(log_steps: float) -> float:
+        exact, found = (c.y for c in example(log_steps, 5).charts[-1].curves[-2:])
+        return float(np.sqrt(np.mean((found / exact - 1) ** 2)))
+
+    assert error(4.5) < 0.05
+    assert error(4.5) < 0.5 * error(2.5)
+
+
+def test_the_charts_show_the_island_that_no_sample_is_on():
+    by_step, histogram = lecture_mixing.ergodicity(0.3, 0, 0).charts
+    assert by_step.span == (0, 1)
+    assert by_step.curves[0].y.max() < 0.26
+    found, truth = (curve.y for curve in histogram.curves)
+    there = histogram.x > 0.55
+    assert not found[there].any()
+    assert truth[there] == pytest.approx(1 / 0.7)
 
 
 # ---- the command

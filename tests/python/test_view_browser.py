@@ -1,6 +1,7 @@
 """The live view in a browser: Debian's chromium without a window, driven by playwright."""
 
 import contextlib
+import dataclasses
 import os
 import re
 import shutil
@@ -14,7 +15,7 @@ import pytest
 import pymlt as mlt
 from pymlt.algorithms.integrators import integrator_schema
 from pymlt.pictures.tonemapping import stops_of
-from pymlt.viewing import shown
+from pymlt.viewing import lecture, shown
 
 pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser")
@@ -76,6 +77,11 @@ class Tab:
     def message(self, text: str):
         """Waits for a message with this text."""
         self.page.get_by_text(re.compile(re.escape(text))).first.wait_for()
+
+    def no_message(self, text: str):
+        """Waits until it is gone since it is mended; they all go away after a while."""
+        self.until(lambda: not self.session._complaints, f"{text!r} is not mended")
+        self.page.get_by_text(re.compile(re.escape(text))).first.wait_for(state="detached")
 
     def picture(self) -> np.ndarray:
         """The pixels of the left part of the window, linear."""
@@ -154,6 +160,22 @@ def test_a_move_restarts_the_render_with_a_picture_at_once(tab):
     tab.until(lambda: session.pose is None, "the camera does not come back")
 
 
+def test_the_keys_that_the_panel_lists_move_the_camera(tab):
+    tab.page.get_by_text("Mouse and keys").click()
+    for said in ("forward, back", "left, right", "down, up"):
+        tab.page.get_by_text(said, exact=True).wait_for()
+    tab.page.get_by_text("Mouse and keys").click()
+    camera = tab.session.client.camera
+    tab.page.mouse.move(300, 300)
+    for key in ("w", "a", "e", "ArrowLeft"):
+        before = np.array(camera.position)
+        tab.page.keyboard.down(key)
+        tab.until(lambda at=before: abs(camera.position - at).max() > 0, f"{key} does not move it")
+        tab.page.keyboard.up(key)
+    tab.press("Scene's view")
+    tab.until(lambda: tab.session.pose is None, "the camera does not come back")
+
+
 def test_a_click_shows_the_paths_through_a_pixel(tab):
     assert tab.page.title() == "pymlt"
     tab.page.mouse.click(300, 400)
@@ -164,6 +186,7 @@ def test_a_click_shows_the_paths_through_a_pixel(tab):
     x, y = tab.session.camera.pixel(tab.session.frame().place(300 / 616, 400 / 560))
     assert abs(found.pixel[0] - x) <= 2
     assert abs(found.pixel[1] - y) <= 2
+    assert tab.session.inspector.pixel == found.pixel  # which has a mark
     tab.page.get_by_text(tab.session.inspector._path.signature).first.wait_for()
     tab.page.get_by_text("found it").first.wait_for()
     tab.session.live.stop()
@@ -264,6 +287,7 @@ def test_shapes_can_be_turned_with_the_paths(tab):
     tab.until(lambda: abs(tab.picture() - still).mean() > 0.005, "they do not turn")
     tab.page.get_by_role("checkbox").first.uncheck(force=True)
     tab.until(lambda: tab.session.live.running, "the render does not come back")
+    tab.until(lambda: tab.session.inspector.pixel is None, "a pixel of another view is marked")
 
 
 def test_a_chain_walks_and_is_watched(tab):
@@ -279,6 +303,8 @@ def test_a_chain_walks_and_is_watched(tab):
 
 
 def test_what_makes_no_sense_gives_a_message(tab):
+    tab.session._complaints.clear()  # of other tests
+    tab.open("Paths")
     fields = tab.page.locator("form input").locator("visible=true")
     field = fields.nth(0)
     field.fill("1000, 2")
@@ -287,6 +313,10 @@ def test_what_makes_no_sense_gives_a_message(tab):
     field.fill("here")
     tab.press("Find its paths")
     tab.message("two whole numbers")
+    assert len(tab.session._complaints) == 1
+    field.fill("48, 60")
+    tab.press("Find its paths")
+    tab.no_message("two whole numbers")
     tab.press("The chain that was stuck longest")
     tab.message("no chain was stuck")
     tab.open("Render")
@@ -295,10 +325,13 @@ def test_what_makes_no_sense_gives_a_message(tab):
     tab.message("max_depth")
     fields.nth(1).fill("")
     fields.nth(1).press("Enter")
+    tab.until(lambda: len(tab.session._complaints) == 1, "all or nothing is mended")
+    tab.page.get_by_text("max_depht").first.wait_for(state="detached")
     assert not tab.errors
 
 
 def test_the_lecture_follows_its_sliders(tab):
+    assert tab.session.lecture._example is None  # it would delay the first picture
     tab.open("Lecture")
     said = tab.page.locator("p[data-example]")
     said.wait_for()
@@ -312,6 +345,45 @@ def test_the_lecture_follows_its_sliders(tab):
     number.press("Enter")
     tab.until(lambda: slider.value == 4, "the slider does not follow")
     tab.until(lambda: "80 %" in said.inner_text(), "the text does not follow")
+
+
+def test_the_lecture_needs_no_scene(browser):
+    with mlt.view(port=0) as view:
+        page = browser.new_page(viewport=WINDOW)
+        page.goto(view.url)
+        page.locator("canvas").nth(1).wait_for()  # a chart, beside that of the scene
+        assert page.get_by_role("tab").count() == 0
+        assert page.locator("p[data-example]").bounding_box()["width"] > 500
+        (session,) = view.sessions
+        page.close()
+        session.wait(PATIENCE)
+        assert not session._thread.is_alive()
+
+
+def test_a_chosen_example_clears_the_chart_before_the_next_is_computed(browser, monkeypatch):
+    ready = threading.Event()
+    usual = {example.name: example for example in lecture.EXAMPLES}
+
+    def slow(*values):
+        ready.wait(PATIENCE)
+        return usual["Two states"].run(*values)
+
+    late = dataclasses.replace(usual["Two states"], run=slow)
+    monkeypatch.setattr(lecture, "EXAMPLES", (usual["Parabola"], late))
+    with mlt.view(port=0) as view:
+        page = browser.new_page(viewport=WINDOW)
+        page.goto(view.url)
+        charts = page.locator(".uplot")
+        charts.nth(1).wait_for()
+        page.get_by_role("combobox", name="Example").click()
+        page.get_by_role("option", name="Two states").click()
+        page.get_by_text("computing …").wait_for()
+        charts.first.wait_for(state="detached")
+        page.get_by_text("Hastings 1970").wait_for()
+        ready.set()
+        charts.first.wait_for()
+        assert page.get_by_text("computing …").count() == 0
+        page.close()
 
 
 def cpu_seconds() -> float:
@@ -362,8 +434,35 @@ def test_text_is_readable(tab, width):
                     || e.scrollWidth > e.clientWidth + 60).map(e => e.innerText)"""
         )
         assert not cut, name
+    ends = tab.page.locator(".mantine-Slider-markLabel").locator("visible=true")
+    thumbs = tab.page.locator(".mantine-Slider-thumb").locator("visible=true")
+    thumbs.first.wait_for()
+    for end, thumb in zip(ends.all()[::2], thumbs.all(), strict=True):
+        below = thumb.bounding_box()
+        assert end.bounding_box()["y"] >= below["y"] + below["height"] - 1
     panel = tab.page.get_by_role("tab", name="Render").bounding_box()
     assert 0 <= panel["x"] < width
+    tab.page.set_viewport_size(WINDOW)
+
+
+def test_a_narrow_window_shows_all_of_the_picture_and_takes_clicks(tab):
+    tab.page.set_viewport_size({"width": 400, "height": 800})
+    tab.open("Render")
+    panel = tab.page.locator(".mantine-Paper-root").filter(has=tab.page.get_by_role("tab")).first
+    window = tab.page.locator("div[style*='inset: 0px'] > canvas")
+    tab.until(
+        lambda: window.bounding_box()["height"] <= panel.bounding_box()["y"] + 1,
+        "the panel hides a part of the picture",
+    )
+    tab.until(
+        lambda: 0.7 < tab.session.frame().height < 1, "the picture keeps the shape of the window"
+    )
+    tab.session.inspector._found = None
+    tab.page.mouse.click(200, 250)
+    tab.page.get_by_role("tab", name="Paths", selected=True).wait_for()
+    tab.until(lambda: tab.session.inspector._found is not None, "no click arrived")
+    x, y = tab.session.inspector.pixel
+    assert max(abs(x - 48), abs(y - 48)) <= 2
     tab.page.set_viewport_size(WINDOW)
 
 

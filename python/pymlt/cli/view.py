@@ -17,7 +17,10 @@ SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict", "threa
 
 
 def add_arguments(command) -> None:
-    command.add_argument("scene", metavar="SCENE", help="file or built-in scene")
+    command.add_argument("scene", metavar="SCENE", nargs="?", help="file or built-in scene")
+    command.add_argument(
+        "--lecture", action="store_true", help="the lecture's examples alone, without a scene"
+    )
     add_flag(command, FLAGS["integrator"])
     for name in SHARED:
         add_flag(command, FLAGS[name])
@@ -65,6 +68,21 @@ def given_token(args) -> str | None:
         raise _core.FileError(f"{args.token_file}: cannot read the token: {reason}") from None
 
 
+def given_scene(args) -> _core.Scene | None:
+    """None for the lecture. Raises UsageError unless there is either a scene or --lecture."""
+    if not args.lecture:
+        if args.scene is None:
+            raise _core.UsageError("name a scene, or give --lecture for the examples without one")
+        scene = load_scene(args)
+        warn(scene.warnings)
+        return scene
+    for name in ("scene", "integrator", *SHARED):
+        if getattr(args, name):
+            flag = FLAGS[name].spelling if name != "scene" else "the scene"
+            raise _core.UsageError(f"--lecture renders nothing: leave out {flag}")
+    return None
+
+
 def run(args) -> int:
     from ..viewing.start import PORT, new_token, view
 
@@ -75,8 +93,7 @@ def run(args) -> int:
             "browser: open the address that is printed"
         )
     with Signals() as signals:
-        scene = signals.abandonable(lambda: load_scene(args))
-        warn(scene.warnings)
+        scene = signals.abandonable(lambda: given_scene(args))
         port = PORT if args.port is None else args.port
         page = view(
             scene,

@@ -18,6 +18,15 @@ from .page import STYLE, table
 
 NONE = "none"
 SECONDS = 600
+KEYS = (
+    ("drag, arrows", "walk around the point one looks at"),
+    ("right button", "move sideways"),
+    ("wheel", "come nearer"),
+    ("W, S", "forward, back"),
+    ("A, D", "left, right"),
+    ("Q, E", "down, up"),
+    ("click", "light paths through the pixel"),
+)
 
 
 class Controls:
@@ -49,6 +58,8 @@ class Controls:
             )
             self._layer = gui.add_dropdown("Layer", list(shown.LAYERS))
         self._save = gui.add_button_group("Save as", ["EXR", "PNG", "JPEG"])
+        with gui.add_folder("Mouse and keys", expand_by_default=False):
+            gui.add_html(table(KEYS))
         with gui.add_folder("Parameters of the integrator", expand_by_default=False):
             self._help = gui.add_html("")
         self._explain()

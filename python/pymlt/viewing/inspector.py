@@ -22,13 +22,14 @@ class Inspector:
 
     def __init__(self, session: Any):
         self._session = session
+        self.pixel: tuple[int, int] | None = None  #: the one that is marked in the picture
         self._found: PixelPaths | None = None
         self._drawn: list[_core.LightPath] = []
         self._path: _core.LightPath | None = None
         self._walk: walk.Walk | None = None
         self._next_step: float | None = None  # if the chain walks by itself
         self._meshes = Meshes(session.camera.scene(None), session.client.scene)
-        self._lines = Lines(session.client.scene, session.camera.radius)
+        self._lines = Lines(session.client.scene, session.client.camera, session.camera.radius)
         gui = session.client.gui
         with gui.add_form("Paths through a pixel") as form:
             gui.add_html('<p class="mlt">Click into the picture, or:</p>')
@@ -77,6 +78,10 @@ class Inspector:
         """Paths are drawn while their tab is open."""
         self._lines.show(visible)
 
+    def camera_moved(self) -> None:
+        """Other labels may lie close together now."""
+        self._lines.labels.renew()
+
     def pause(self) -> float | None:
         """Seconds to the next step of a chain that walks by itself."""
         return None if self._next_step is None else max(0.0, self._next_step - time.monotonic())
@@ -98,8 +103,10 @@ class Inspector:
                 f"pixel ({x}, {y}) is beside the image, which is {scene.width} x {scene.height}"
             )
         samples, depth = self._whole(self._samples, 1, 4096), self._whole(self._depth, 1, 64)
-        self._pixel.value = f"{x}, {y}"
+        self._pixel.value, self.pixel = f"{x}, {y}", pixel
+        self._session.renew()
         self._found = paths_through(scene, pixel, samples, depth)
+        self._session.mended(self._typed)
         self._show_found(signature)
 
     def step(self) -> None:

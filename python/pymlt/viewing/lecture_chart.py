@@ -34,6 +34,7 @@ class Chart:
     title: str
     x: np.ndarray
     curves: list[Curve]
+    span: tuple[float, float] | None = None  #: of the vertical axis; None: that of the curves
 
 
 @dataclass
@@ -48,5 +49,7 @@ class Shown:
 class Example:
     name: str
     text: str
+    formula: str  #: as `formula.as_html` reads it
+    source: str  #: of the formula
     sliders: tuple[Slider, ...]
     run: Callable[..., Shown]  #: of the values of the sliders

@@ -12,11 +12,21 @@ STYLE = """<style>
 .mlt tr + tr td { border-top: 1px solid rgba(128, 128, 128, .25); }
 .mlt .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .mlt b.swatch { display: inline-block; width: .8em; height: .8em; border-radius: 2px; }
+.mantine-Slider-root { padding-bottom: .9em !important; }
+.mantine-Slider-markLabel { margin-top: 3px; font-size: 11px !important; }
 @media (max-width: 576px) {
   div[style*="width: 20em"] { width: 100% !important; max-height: 38% !important; }
   div[style*="width: 20em"] div[style*="width: 20em"] { max-height: none !important; }
+  div[style*="inset: 0px"]:has(> canvas) { bottom: 38% !important; }
   label, button, button *, input { font-size: 13px !important; }
 }
+</style>"""
+
+#: The panel of a tab that has nothing beside it; viser gives its width in the one or the other way.
+WIDE = """<style>
+div[style*="width: 388px"], div[style*="width: 20em"] { width: 100% !important; }
+.mantine-Paper-root[style*="width: 20em"] { height: 100%; max-height: 100% !important; }
+.mantine-ScrollArea-content { min-width: 0 !important; width: min(100%, 40em); margin: auto; }
 </style>"""
 
 

@@ -1,19 +1,14 @@
-"""One tab of the browser: its camera, its render, its controls.
-
-All of it is done by one thread, which takes actions that the page's callbacks post.
-"""
+"""A tab of the browser with a scene: its camera, its render, its controls."""
 
 from __future__ import annotations
 
 import os
-import queue
 import threading
 import time
-import traceback
-from collections.abc import Callable
 from typing import Any
 
 from .. import _core
+from . import shown
 from .browser import follow_tab, open_tab, set_title
 from .camera import Pose, SceneCamera
 from .controls import Controls
@@ -22,6 +17,7 @@ from .inspector import Inspector
 from .lecture import Lecture
 from .live import Algorithm, LiveRender
 from .pictures import Pictures
+from .worker import Worker
 
 # A picture costs CPU time that the render does not get. Between two pictures there are at least
 # INTERVAL seconds, and pictures take at most this SHARE of what the processors have.
@@ -29,16 +25,16 @@ INTERVAL = 0.3
 SHARE = 0.015
 
 
-class Session:
-    """A tab. `post` may be called by any thread; the rest belongs to the session's own."""
+class Session(Worker):
+    """Such a tab. Its render belongs to its thread."""
 
     def __init__(self, camera: SceneCamera, client: Any, algorithm: Algorithm, threads: int):
-        self.camera, self.client = camera, client
+        super().__init__(client)
+        self.camera = camera
         self.pose: Pose | None = None  #: of the camera; None is the scene's own
         self.live = LiveRender(threads)
         self.pictures = Pictures(self)
-        self._actions: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
-        self._moved, self._open = threading.Event(), True
+        self._moved = threading.Event()
         self._due, self._final = 0.0, False
         self._canvas = 0.0
         self.post(self.restart)
@@ -52,24 +48,12 @@ class Session:
             self.lecture = Lecture(self)
         show = self.inspector.show_paths
         follow_tab(client, "Paths", lambda is_open: self.post(lambda: show(is_open)))
-        self._thread = threading.Thread(target=self._run, name="pymlt view: tab", daemon=True)
+        follow_tab(client, "Lecture", self.lecture.show)
         self._thread.start()
         client.camera.on_update(self._camera_moved)
         client.scene.on_click()(self._clicked)
 
     # ---- from other threads
-
-    def post(self, action: Callable[[], object]) -> None:
-        """Have the session's thread do it; what goes wrong is shown in the tab."""
-        self._actions.put(action)
-
-    def close(self) -> None:
-        """End the render and the thread."""
-        self._open = False
-        self._actions.put(None)
-
-    def wait(self, seconds: float) -> None:
-        self._thread.join(seconds)
 
     def _camera_moved(self, _: Any) -> None:
         if not self._moved.is_set():
@@ -108,35 +92,6 @@ class Session:
             pauses.append(max(0.05, min(0.5, self._due - time.monotonic())))
         return min((pause for pause in pauses if pause is not None), default=None)
 
-    def _take(self, seconds: float | None) -> bool:
-        """Does what was posted, waiting at most so long for the first; False at the end."""
-        try:
-            action = (
-                self._actions.get(timeout=seconds) if seconds != 0 else self._actions.get_nowait()
-            )
-            while True:
-                if action is None:
-                    return False
-                self._try(action)
-                action = self._actions.get_nowait()
-        except queue.Empty:
-            return True
-
-    def _try(self, action: Callable[[], object]) -> None:
-        try:
-            action()
-        except (_core.Error, ValueError, OverflowError) as error:
-            self.say("This does not work", str(error))
-        except Exception as error:  # a bug: say where
-            if not self._open:
-                return  # nobody listens any more
-            traceback.print_exc()
-            self.say("Something went wrong in pymlt", repr(error))
-
-    def say(self, title: str, text: str, color: str = "red") -> None:
-        """A message at the corner of the page."""
-        self.client.add_notification(title, text, color=color, auto_close_seconds=15)
-
     def frame(self) -> Frame:
         """Where the image lies in the window."""
         return self.camera.frame(self._aspect())
@@ -156,6 +111,7 @@ class Session:
         if self._canvas != self._aspect():
             self._canvas = self._aspect()
             self.renew()
+        self.inspector.camera_moved()
         pose: Pose | None = Pose.of(camera)
         if pose.is_near(self.camera.pose, self.camera.radius):
             pose = None
@@ -164,6 +120,7 @@ class Session:
         )
         if not same and not self.inspector.shows_meshes:
             self.pose = pose
+            self.inspector.pixel = None  # it shows something else now
             self.restart()
 
     def scene(self, divisor: int = 1) -> _core.Scene:
@@ -171,7 +128,10 @@ class Session:
         return self.camera.scene(self.pose, divisor)
 
     def restart(self) -> None:
-        """Render anew, since something has changed."""
+        """Render anew, since something has changed; if that fails, the old render goes on."""
+        self._try(self._restart)
+
+    def _restart(self) -> None:
         self.live.start(self.scene, self.controls.algorithms(), self.controls.seconds())
         self.pictures.forget()
         self.renew()
@@ -193,7 +153,7 @@ class Session:
     def _show(self) -> None:
         ended = not self.live.running
         spent = time.thread_time()
-        self._try(self.live.check)
+        self._try(self.live.check, cure=self._restart)
         self._try(self._send)
         spent = time.thread_time() - spent
         self._due = time.monotonic() + max(INTERVAL, spent / (SHARE * (os.cpu_count() or 1)))
@@ -207,5 +167,9 @@ class Session:
             return
         picture = self.pictures.make(self.controls.look(), self.controls.share())
         if picture is not None:
-            self.client.scene.set_background_image(self.frame().fill(picture), format="jpeg")
+            frame = self.frame()
+            if self.inspector.pixel is not None:
+                scale = len(picture) / max(self.client.camera.image_height * frame.height, 1)
+                picture = shown.marked(picture, self.inspector.pixel, scale)
+            self.client.scene.set_background_image(frame.fill(picture), format="jpeg")
             self.client.flush()

@@ -112,6 +112,25 @@ def enlarged(small: np.ndarray, size: tuple[int, int]) -> np.ndarray:
     return small[rows[:, None], columns]
 
 
+def marked(picture: np.ndarray, pixel: tuple[int, int], scale: float) -> np.ndarray:
+    """A picture with a cross around one of its pixels (x, y), which itself stays free.
+
+    scale: pixels of the picture in one of the screen, on which the cross has about 70.
+    """
+    (x, y), line, near = pixel, max(1, round(scale)), max(3, round(8 * scale))
+    far = max(near + 3, round(34 * scale))
+    seen = picture.copy()
+    for edge, colour in ((line, 0), (0, 255)):  # white with a black border
+
+        def part(at: int, low: int, high: int, edge: int = edge) -> slice:
+            return slice(max(0, at + low - edge), max(0, at + high + edge))
+
+        for low, high in ((-far, -near), (near + 1, far + 1)):
+            seen[part(y, 0, line), part(x, low, high)] = colour
+            seen[part(y, low, high), part(x, 0, line)] = colour
+    return seen
+
+
 def split(left: np.ndarray, right: np.ndarray, share: float) -> np.ndarray:
     """Two pictures side by side: the left one up to a share of the width."""
     column = round(share * left.shape[1])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import secrets
 import threading
 import warnings
+from collections.abc import Callable
 from html import escape
 from typing import Any
 
@@ -13,14 +14,16 @@ from .._extras import import_extra
 from ..formats.loading import SceneLike, as_scene
 from .camera import SceneCamera
 from .gate import Gate, is_local
+from .lecture import LectureTab
 from .live import Algorithm
 from .session import Session
+from .worker import Worker
 
 PORT = 8090
 
 
 def view(
-    scene: SceneLike,
+    scene: SceneLike | None = None,
     integrator: str | None = None,
     *,
     parameters: str = "",
@@ -33,7 +36,7 @@ def view(
     """Show a scene in the browser while it renders; in a notebook, inline.
 
     scene, sensor
-        as for `start`.
+        as for `start`. Without a scene the page has the lecture's examples alone.
     integrator, parameters
         the name of the one to begin with, None is the scene's own, else `mlt`; and its parameters,
         such as "max_depth=8, p_large=0.3".
@@ -44,7 +47,8 @@ def view(
         of each tab's render; 0: as many as there are.
 
     Returns at once; the page is there until `View.stop`, or the end of the program. Raises
-    UsageError without the extra `view`, for a host without a token, or if no port is free.
+    UsageError without the extra `view`, for a host without a token, for what needs a scene without
+    one, or if no port is free.
     """
     viser = import_extra("viser", "view", "the live view")
     if not is_local(host) and token is None:
@@ -52,11 +56,22 @@ def view(
             f"{host} can be reached from other machines: give a token too, the word that opens "
             "the page"
         )
+    if scene is None:
+        if integrator or parameters or sensor is not None or threads:
+            raise _core.UsageError(
+                "integrator, parameters, sensor and threads are those of a render: give a scene too"
+            )
+        return View(viser, LectureTab, None, host, port, token)
     loaded = as_scene(scene, sensor)
     name = integrator or loaded.info()["integrator"] or "mlt"
     algorithm = Algorithm(name, parameters)
     algorithm.make(loaded)
-    return View(viser, SceneCamera(loaded, sensor or 0), algorithm, host, port, token, threads)
+    camera = SceneCamera(loaded, sensor or 0)
+
+    def make(client: Any) -> Session:
+        return Session(camera, client, algorithm, threads)
+
+    return View(viser, make, camera, host, port, token)
 
 
 def new_token() -> str:
@@ -70,20 +85,19 @@ class View:
     def __init__(
         self,
         viser: Any,
-        camera: SceneCamera,
-        algorithm: Algorithm,
+        make: Callable[[Any], Worker],
+        camera: SceneCamera | None,
         host: str,
         port: int,
         token: str | None,
-        threads: int,
     ):
         from .server import start_viser
 
         # A tab may be closed while a picture is made for it; viser says so each time.
         warnings.filterwarnings("ignore", "Queued a .* on a closed connection", UserWarning)
-        self._sessions: dict[int, Session] = {}
+        self._sessions: dict[int, Worker] = {}
         self._lock = threading.Lock()
-        self._make = lambda client: Session(camera, client, algorithm, threads)
+        self._make = make
         self._gate = Gate(host, port, token)
         try:
             self._server = start_viser(viser, self._gate)
@@ -96,7 +110,8 @@ class View:
             show_logo=False, show_share_button=False, control_width="large", dark_mode=True
         )
         self._server.gui.main_panel.dock_right()
-        camera.place_first(self._server.initial_camera)
+        if camera is not None:
+            camera.place_first(self._server.initial_camera)
         self._server.on_client_connect(self._connect)
         self._server.on_client_disconnect(self._disconnect)
 
@@ -107,7 +122,7 @@ class View:
         return f"http://{host}:{self.port}/" + (f"?token={self._token}" if self._token else "")
 
     @property
-    def sessions(self) -> list[Session]:
+    def sessions(self) -> list[Worker]:
         """The tabs that are open."""
         with self._lock:
             return list(self._sessions.values())

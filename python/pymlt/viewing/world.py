@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
+from .labels import Labels
 from .pixel_paths import polyline
 
 if TYPE_CHECKING:
@@ -81,10 +82,12 @@ def simplified(points: np.ndarray, faces: np.ndarray, most: int) -> tuple[np.nda
 class Lines:
     """Light paths as lines and tubes in a tab, each under a name."""
 
-    def __init__(self, api: Any, radius: float):
+    def __init__(self, api: Any, camera: Any, radius: float):
         self._api, self._reach, self._dot = api, 2 * radius, 0.008 * radius
+        self.labels = Labels(api, camera, "/paths/names")  #: of the vertices of one path
         self._root = api.add_frame("/paths", show_axes=False)
         self._nodes: dict[str, Any] = {}
+        self._named = ""  # the path whose vertices have names
 
     def show(self, visible: bool) -> None:
         self._root.visible = visible
@@ -93,6 +96,8 @@ class Lines:
         node = self._nodes.pop(name, None)
         if node is not None:
             node.remove()  # with what stands under its name
+        if name == self._named:
+            self.labels.put([])
 
     def draw(self, name: str, path: _core.LightPath, colour: Any, width: float) -> None:
         """The edges of a path, as lines of this width in pixels."""
@@ -111,19 +116,19 @@ class Lines:
     def draw_one(self, name: str, path: _core.LightPath, colour: Any) -> None:
         """One path with a dot and a name at each vertex but that on the lens."""
         self.draw(name, path, colour, 4)
-        for i, point in enumerate(polyline(path, self._reach)[:-1]):
-            place = tuple(map(float, point))
-            label = f"/paths/{name}/x{i}"
+        places = polyline(path, self._reach)[:-1]
+        for i, point in enumerate(places):
             self._api.add_icosphere(
-                f"{label}/dot",
+                f"/paths/{name}/x{i}",
                 self._dot,
                 colour,
                 subdivisions=2,
-                position=place,
+                position=tuple(map(float, point)),
                 cast_shadow=False,
                 receive_shadow=False,
             )
-            self._api.add_label(f"{label}/name", f"x{i}", position=place)
+        self._named = name
+        self.labels.put(places)
 
     def draw_tubes(self, name: str, paths: list[_core.LightPath], colours: list[Any]) -> None:
         """Half transparent, which lines cannot be; without the edges to the lens, since a tube
