@@ -120,10 +120,6 @@ USAGE = {
     "every 0": (["scene.xml", *OUT, "--checkpoint", "x", "--every", "0"], "every"),
     "resume nothing": ([*OUT, "--resume", "x"], "x: there is no such file"),
     "resume a scene": ([*OUT, "--resume", "scene.xml"], "scene.xml: is no checkpoint"),
-    "resume with a seed": ([*OUT, "--resume", "x", "--seed", "0"], "--seed"),
-    "resume with -p": ([*OUT, "--resume", "x", "-p", "a=1"], "-p"),
-    "resume with a size": ([*OUT, "--resume", "x", "--size", "3x4"], "--size"),
-    "resume with an integrator": ([*OUT, "--resume", "x", "--integrator", "mlt"], "--integrator"),
     "negative seed": (["scene.xml", *OUT, "--seed", "-1"], "'-1' is not an integer from 0 to 18"),
     "large seed": (["scene.xml", *OUT, "--seed", str(2**64)], "is not an integer from 0 to 18"),
     "seed 1.5": (["scene.xml", *OUT, "--seed", "1.5"], "'1.5' is not an integer from 0 to 18"),
@@ -147,7 +143,6 @@ USAGE = {
     "-D without value": (["scene.xml", *OUT, "-D", "res"], "res"),
     "integrator": (["scene.xml", *OUT, "--integrator", "pssmtl"], "did you mean 'pssmlt'?"),
     "filter": (["scene.xml", *OUT, "--filter", "bxo"], "did you mean 'box'?"),
-    "resume with a filter": ([*OUT, "--resume", "x", "--filter", "box"], "--filter"),
     "missing scene": (["nowhere.xml", *OUT], "nowhere.xml"),
     "two scenes": (["scene.xml", "scene.xml", *OUT], "scene.xml"),
 }
@@ -166,7 +161,7 @@ def test_a_checkpoint_replaces_no_other_file(program, scene):
     assert Path("notes").read_text() == "not to be lost"
 
 
-RULES = ["no scene", "every alone", "every 0", "resume with a seed", "resume with -p", "size"]
+RULES = ["no scene", "every alone", "every 0", "size"]
 RULES += [
     "negative seed",
     "large seed",

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import fields
 
 from .. import _core
 from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
-from ..formats.loading import built_in_name
 from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.bands import add_bands, check_spectral, parse_bands, share_of_time
 from ..rendering.job import Job
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
-from ..rendering.start import saved_job
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
 from .display import add_tonemap, exposure
+from .resuming import SAVED, resumed, to_come
 from .signals import Signals
 
 HELP = "Render a scene to image files."
@@ -72,7 +70,7 @@ def given(args) -> dict:
 def check(args) -> None:
     try:
         values = given(args)
-        _core.check_flags(set(values))
+        _core.check_flags(set(values) - SAVED if args.resume else set(values))
         files = {name: values[name] for name in values if FLAGS[name].is_file}
         _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
         if args.bands and (args.checkpoint or args.resume):
@@ -92,9 +90,10 @@ def start(args, signals: Signals) -> Job:
     if args.denoise and args.filter is None:
         args.filter = "box"
     if args.resume:
-        if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
-            raise _core.FileError(f"{args.scene}: there is no such file")
-        return signals.abandonable(lambda: saved_job(args.resume, args.scene, options))._start()
+        job = signals.abandonable(lambda: resumed(args, options))._start()
+        if not args.quiet:
+            say(to_come(job, options))
+        return job
     scene = signals.abandonable(lambda: load_scene(args))
     if args.bands:
         check_spectral(scene, "--spectral")

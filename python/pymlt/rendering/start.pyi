@@ -9,13 +9,8 @@ from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike
 from .bands import Bands
 from .job import Job
-from .options import RenderOptions
 from .result import Replay, Result
 
-def names_built_in(
-    scene: str | os.PathLike | None,
-    name: str,
-) -> bool: ...
 def render(
     scene: SceneLike,
     integrator: IntegratorLike | None = ...,
@@ -88,11 +83,6 @@ def resume(
     fireflies: str = ...,
     cluster: Any = ...,
     scene: SceneLike | None = ...,
-) -> Job: ...
-def saved_job(
-    path: str,
-    scene: SceneLike | None,
-    options: RenderOptions,
 ) -> Job: ...
 def start(
     scene: SceneLike,
