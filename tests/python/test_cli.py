@@ -405,13 +405,13 @@ def no_room_for(size: int) -> None:
 
 
 def test_a_full_disk_is_said_and_ends_with_3(program, scene):
-    flags = ["--size", "64x64", "--spp", 1, "-o", "a.exr", "-o", "a.png", "--stats", "a.json"]
+    flags = ["--size", "64x64", "--spp", 16, "-o", "a.exr", "-o", "a.png", "--stats", "a.json"]
     done = run(program, scene, *flags, preexec_fn=lambda: no_room_for(16384))
     assert done.returncode == 3
     lines = [line.partition(": ")[2] for line in done.stderr.splitlines()]
     full = "cannot write it: File too large; no other place would have it"
     assert lines[:-1] == [f"a.exr: {full}"]
-    assert lines[-1].endswith(" s: a.png")
+    assert lines[-1].endswith(" %: a.png")
     assert sorted(os.listdir()) == ["a.json", "a.png", "scene.xml"]
 
 
@@ -428,7 +428,7 @@ def small_disk(tmp_path):
 
 
 def test_what_a_full_disk_does_not_hold_is_elsewhere(program, scene, small_disk):
-    flags = ["--size", "128x128", "--spp", 1, "-o", "small/a.exr", "--stats", "small/a.json"]
+    flags = ["--size", "128x128", "--spp", 16, "-o", "small/a.exr", "--stats", "small/a.json"]
     done = run(program, scene, *flags)
     assert done.returncode == 3
     problem, summary = done.stderr.splitlines()

@@ -22,7 +22,8 @@ class Parser(argparse.ArgumentParser):
         emit(message.rstrip("\n"))
 
     def error(self, message):
-        raise _core.UsageError(f"{message}; see {self.prog} --help")
+        hint = "" if message.endswith("?") else f"; see {self.prog} --help"
+        raise _core.UsageError(message + hint)
 
 
 def open_standard_streams() -> None:
@@ -64,13 +65,13 @@ def warn(warnings: list[str]) -> None:
         say(f"warning: {warning}")
 
 
-def add_flag(command: Parser, flag: _core.Flag, help: str = "") -> None:
+def add_flag(command: Parser, flag: _core.Flag, help: str = "", read=None) -> None:
     """A flag of the table that mlt-render shares; None (or []) if it is not given."""
-    help = help or flag.help
+    help = (help or flag.help).replace("%", "%%")
     if not flag.has_value:
         command.add_argument(flag.spelling, action="store_true", help=help)
         return
-    settings = {"metavar": flag.metavar, "help": help, "type": reader(flag.read)}
+    settings = {"metavar": flag.metavar, "help": help, "type": reader(read or flag.read)}
     if flag.repeatable:
         settings |= {"action": "append", "default": []}
     if flag.spelling.startswith("-"):
