@@ -154,6 +154,24 @@ def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
     assert not Path("a.exr").exists()
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["render", "x", "--sp", 4], "there is no flag --sp; did you mean '--spp'?"),
+        (["render", "x", "--sp=4"], "there is no flag --sp; did you mean '--spp'?"),
+        (["--sp"], "there is no flag --sp; did you mean '--spp' of pymlt render?"),
+        (["--versio"], "there is no flag --versio; did you mean '--version'?"),
+        (["lab", "--lst"], "there is no flag --lst; did you mean '--list'?"),
+        (["render", "x", "--zzz"], "there is no flag --zzz; see pymlt render --help"),
+        (["rendr", "x", "--spp", 4], "invalid choice: 'rendr'"),
+        (["render", "--", "--spp"], "the following arguments are required: -o/--output"),
+    ],
+    ids=str,
+)
+def test_a_misspelt_flag_is_told_from_what_it_may_have_been(arguments, said):
+    assert said in the_error(run(PYMLT, *arguments))
+
+
 def test_a_checkpoint_replaces_no_other_file(program, scene):
     Path("notes").write_text("not to be lost")
     error = the_error(run(program, scene, *OUT, "--checkpoint", "notes", "--overwrite"))
@@ -575,6 +593,15 @@ def test_list_names_plug_ins_and_scenes():
     assert re.search(r"^  bitmap +An image, interpolated between its texels", everything, re.M)
     assert re.search(r"^  ring +\w", everything, re.M)
     assert "did you mean 'bsdf'?" in the_error(run(PYMLT, "list", "bsfd"))
+
+
+def test_a_list_does_not_end_a_sentence_within_a_reference():
+    environment = os.environ | {"COLUMNS": "200"}
+    shown = run(PYMLT, "list", env=environment).stdout
+    assert "(Cline et al. 2005): short chains from the paths of bidirectional path tracing" in shown
+    assert "Veach 1997, ch. 10)." in shown
+    said = r"  mmlt +Multiplexed Metropolis light transport \(Hachisuka et al. 2014\): [^.]*\.$"
+    assert re.search(said, shown, re.M)  # its first sentence, and no other
 
 
 def test_list_shows_the_parameters_of_a_plug_in():

@@ -16,7 +16,27 @@ FLAGS = {flag.name: flag for flag in _core.render_flags()}
 
 
 class Parser(argparse.ArgumentParser):
-    """Its errors are one line."""
+    """Its errors are one line, which names the flag that a misspelt one may have been."""
+
+    def parse_known_args(self, args=None, namespace=None):
+        texts = sys.argv[1:] if args is None else list(args)
+        commands = next((a.choices for a in self._actions if isinstance(a.choices, dict)), {})
+        for text in texts:
+            flag = text.partition("=")[0]
+            if text == "--" or (commands and not text.startswith("-")):
+                break  # what follows is the command's own
+            if re.fullmatch("--[a-z-]+", flag) and flag not in self._option_string_actions:
+                self.error(f"there is no flag {flag}{self._meant(flag, commands)}")
+        return super().parse_known_args(texts, namespace)
+
+    def _meant(self, flag: str, commands: dict[str, Parser]) -> str:
+        """The flag of this command, or of one of those below, that this one is like."""
+        for parser in (self, *commands.values()):
+            known = [text for text in parser._option_string_actions if text.startswith("--")]
+            hint = _core.suggestion(flag, known)
+            if hint.endswith("?"):
+                return hint if parser is self else f"{hint[:-1]} of {parser.prog}?"
+        return ""
 
     def _print_message(self, message, file=None):
         emit(message.rstrip("\n"))
