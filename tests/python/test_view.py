@@ -18,6 +18,8 @@ from pymlt.cli.view import given_token
 from pymlt.pictures.tonemapping import encode_srgb, tonemap
 
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
+rich = pytest.importorskip("rich")
+console = pytest.importorskip("rich.console")
 
 from pymlt.viewing import lecture_examples, path_tables, shown, walk, world  # noqa: E402
 from pymlt.viewing.camera import Pose, SceneCamera  # noqa: E402
@@ -39,6 +41,17 @@ def test_bad_arguments_are_one_line(capsys, tmp_path):
     assert "token" in capsys.readouterr().err
     assert main(["view", "no-such-scene"]) == 2
     assert main(["view", "ring", "--port", "many"]) == 2
+
+
+def test_nothing_is_printed_in_a_notebook(monkeypatch):
+    """There rich, by which viser prints, displays what it has to say."""
+    said = []
+    monkeypatch.setattr("rich.jupyter.display", lambda *what: said.append(what))
+    monkeypatch.setattr("rich._console", console.Console(force_jupyter=True))
+    mlt.view(tiny.scene()).stop()
+    assert said == []
+    rich.print("later")
+    assert len(said) == 1
 
 
 @pytest.mark.parametrize(

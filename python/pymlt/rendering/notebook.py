@@ -23,7 +23,7 @@ class Picture:
 
     def __repr__(self) -> str:
         stats = self.job.stats
-        done = "" if self.job.ended else f", {100 * self.job.progress:.0f} %"
+        done = "" if self.job.ended else f", {100 * self.job.progress:.0f} % done"
         return summary(stats["integrator"], self.job.image, stats) + done
 
 
