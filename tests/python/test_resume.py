@@ -29,7 +29,7 @@ def door(tmp_path, monkeypatch) -> list:
 
 @pytest.fixture
 def file(scene) -> list:
-    """The same of a file."""
+    """The command whose checkpoint is a.mlt, of a file."""
     command = [scene, "-D", "res=9", "--lenient", "--sensor", 0, *RENDER_FLAGS, "--spp", 2]
     done = run(RENDER, *command, "-o", "a.exr", "--checkpoint", "a.mlt")
     assert done.returncode == 0, done.stderr
@@ -116,9 +116,18 @@ def test_another_scene_is_refused_by_its_name(door):
 
 
 def test_a_name_is_not_the_scene_of_a_file(file):
-    assert "a.mlt: is a checkpoint of a file, not of 'ring'" in the_error(
-        run(RENDER, "ring", *AGAIN)
-    )
+    error = the_error(run(RENDER, "ring", *AGAIN))
+    assert "a.mlt: is a checkpoint of a scene from elsewhere, not of 'ring'" in error
+
+
+def test_the_filter_of_a_denoised_render_is_that_of_the_checkpoint(tmp_path, monkeypatch):
+    pytest.importorskip("pyoidn", reason="denoising needs pyoidn")
+    monkeypatch.chdir(tmp_path)
+    flags = ["furnace", "--size", "8x6", "--integrator", "path", "--spp", 2, "--filter", "tent"]
+    run(RENDER, *flags, "--checkpoint", "a.mlt", "-o", "a.exr")
+    done = run(RENDER, *AGAIN, "--denoise")
+    assert done.returncode == 0, done.stderr
+    assert "the filter 'tent' spreads noise" in done.stderr
 
 
 def test_a_spectral_scene_of_the_package_is_resumed(tmp_path, monkeypatch):

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from .. import _core
 from ..formats.loading import load_with_warnings
+from ..rendering.progress import above_bars
 
 FLAGS = {flag.name: flag for flag in _core.render_flags()}
 
@@ -58,7 +59,7 @@ def open_standard_streams() -> None:
 def say(message) -> None:
     """One line on stderr, if that can be written to; what is rendered does not depend on it."""
     if sys.stderr is not None:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError), above_bars():
             print("pymlt:", " ".join(str(message).split("\n")), file=sys.stderr, flush=True)
 
 

@@ -96,13 +96,13 @@ def start(args, signals: Signals) -> Job:
     options.fireflies = args.fireflies or ("groups" if args.denoise else "keep")
     if args.denoise and options.aovs is None:
         options.aovs = GUIDES
-    if args.denoise and args.filter is None:
-        args.filter = "box"
     if args.resume:
         job = signals.abandonable(lambda: resumed(args, options))._start()
         if not args.quiet:
             say(to_come(job, options))
         return job
+    if args.denoise and args.filter is None:
+        args.filter = "box"
     scene = signals.abandonable(lambda: load_scene(args))
     if args.bands:
         check_spectral(scene, "--spectral")
@@ -142,7 +142,8 @@ def run(args) -> int:
             code = 128 + signals.caught if signals.caught else 0
         if not args.quiet:
             warn(result.stats["warnings"][len(known) :])
-            if hint := needed(result):
+            hint = needed(result)
+            if hint and not args.bands:  # which share the time with the image
                 say(hint)
         images, complete = save(args, result)
     if not args.quiet:

@@ -39,7 +39,7 @@ def saved_scene(saved: _core.Checkpoint, path: str, scene: SceneLike | None) -> 
     elif name and text in ("", name):
         loaded = load_built_in(name, defines, *asked)
     elif name or text in scenes.names():
-        own = repr(name) if name else "a file"
+        own = repr(name) if name else "a scene from elsewhere"
         raise _core.SceneError(f"{path}: is a checkpoint of {own}, not of {text!r}")
     else:
         return saved.load_scene(text)
