@@ -168,7 +168,7 @@ def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
     ],
     ids=str,
 )
-def test_a_misspelt_flag_is_told_from_what_it_may_have_been(arguments, said):
+def test_the_error_for_a_misspelt_flag_names_the_one_that_was_meant(arguments, said):
     assert said in the_error(run(PYMLT, *arguments))
 
 

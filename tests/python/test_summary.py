@@ -98,7 +98,7 @@ def test_what_is_said_to_be_enough_is_enough(scene):
 
 
 def test_percent_are_a_share(scene):
-    for percent, share in (("5%", "0.05"), ("0.7%", "0.007"), ("100%", "1")):
+    for percent, share in (("5%", "0.05"), ("0.7 %", "0.007"), ("100%", "1")):
         errors = [RenderOptions(error=read_error(text)).error for text in (percent, share)]
         assert errors[0] == pytest.approx(errors[1], rel=1e-12)
     images = [mlt.render(scene, "path", error=e, seed=3) for e in ("40%", 0.4)]

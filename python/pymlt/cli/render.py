@@ -25,7 +25,7 @@ HELP = "Render a scene to image files."
 
 def read_error(text: str) -> float:
     """A share or percent."""
-    share = FLAGS["error"].read(text.removesuffix("%"))
+    share = FLAGS["error"].read(text.removesuffix("%").rstrip())
     return relative_error(text if text.endswith("%") else share)
 
 
