@@ -1,9 +1,11 @@
 """`pymlt render --resume`: which scene and flags may stand beside it, and what is to come."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
+import tiny
 from command_line import PYMLT, mlt_render, run, the_error
 
 import pymlt as mlt
@@ -118,6 +120,19 @@ def test_another_scene_is_refused_by_its_name(door):
 def test_a_name_is_not_the_scene_of_a_file(file):
     error = the_error(run(RENDER, "ring", *AGAIN))
     assert "a.mlt: is a checkpoint of a scene from elsewhere, not of 'ring'" in error
+
+
+def test_another_file_is_named_beside_the_scene_of_the_checkpoint(file):
+    Path("other.xml").write_text(tiny.XML.replace("5, 6, 7", "7, 6, 5"))
+    error = the_error(run(RENDER, "other.xml", *AGAIN))
+    assert "its scene '" in error
+    assert error.endswith(
+        "/scene.xml' has changed since the checkpoint was written; it can only be "
+        "resumed with the scene as it was, which 'other.xml' is not"
+    )
+    Path("model.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    error = the_error(run(RENDER, "model.obj", *AGAIN))
+    assert error.endswith("is a checkpoint of a scene from elsewhere, not of 'model.obj'")
 
 
 def test_the_filter_of_a_denoised_render_is_that_of_the_checkpoint(tmp_path, monkeypatch):

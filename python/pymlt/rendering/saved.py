@@ -19,9 +19,14 @@ def saved_job(
     saved: _core.Checkpoint, path: str, scene: SceneLike | None, options: RenderOptions
 ) -> Job:
     """The job of the checkpoint that was read from `path`, not yet started."""
-    scene = saved_scene(saved, path, scene)
+    try:
+        loaded = saved_scene(saved, path, scene)
+    except _core.SceneError as error:
+        if isinstance(scene, str | os.PathLike) and str(error).endswith(" the scene as it was"):
+            raise _core.SceneError(f"{error}, which {os.fspath(scene)!r} is not") from None
+        raise
     options = replace(options, seed=saved.seed, checkpoint=options.checkpoint or path)
-    job = Job(scene, saved.integrator, options)
+    job = Job(loaded, saved.integrator, options)
     saved.resume(job._job)
     return job
 
@@ -38,7 +43,7 @@ def saved_scene(saved: _core.Checkpoint, path: str, scene: SceneLike | None) -> 
         loaded, _ = load_foreign(text or name, *asked)
     elif name and text in ("", name):
         loaded = load_built_in(name, defines, *asked)
-    elif name or text in scenes.names():
+    elif name or is_foreign(text) or text in scenes.names():
         own = repr(name) if name else "a scene from elsewhere"
         raise _core.SceneError(f"{path}: is a checkpoint of {own}, not of {text!r}")
     else:
