@@ -22,7 +22,9 @@ def table(command: str) -> str:
             spelling = f"{', '.join(action.option_strings)} {action.metavar or ''}".strip()
             shared = command != "render" or action.dest in FLAGS
             only = "" if shared else " (`pymlt` only)"
-            lines.append(f"| `{spelling}` | {action.help.replace('|', chr(92) + '|')}{only} |")
+            lines.append(
+                f"| `{spelling}` | {(action.help % {}).replace('|', chr(92) + '|')}{only} |"
+            )
     return "\n".join(lines)
 
 

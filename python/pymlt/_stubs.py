@@ -53,7 +53,6 @@ from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike
 from .bands import Bands
 from .job import Job
-from .options import RenderOptions
 from .result import Replay, Result
 
 """

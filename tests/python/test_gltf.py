@@ -355,6 +355,19 @@ def test_a_lone_mesh_has_the_same_light_as_a_file_without_lamps():
     assert alone["sun"]["direction"] == pytest.approx(SUNBEAM.tolist(), abs=1e-12)
 
 
+def test_a_lone_mesh_in_a_file_of_scenes_gives_one_warning():
+    file = GltfFile()
+    file.node(mesh=file.mesh())
+    assert converted(file).warnings == [
+        "there is no light, and there is no camera; an even sky, a sun and a camera that sees "
+        "everything are added"
+    ]
+    file.light({"type": "point"}, translation=[0, 2, 0])
+    assert converted(file).warnings == [
+        "there is no camera; a camera that sees everything is added"
+    ]
+
+
 def room(emission: float, *, texture=None) -> GltfFile:
     """Two squares of area 4 and 396, of which the first emits."""
     file = GltfFile()
@@ -379,8 +392,8 @@ def test_what_glows_lights_a_scene_alone_if_it_is_strong_enough(strength, textur
     made = converted(room(strength, texture=texture))
     shapes = [made.scene[f"node-{i}"] for i in range(2)]
     assert mean_radiance(shapes) == pytest.approx(mean, rel=1e-5)
-    said = "what glows is too weak to light the scene; an even sky and a sun are added"
-    assert (said in made.warnings) == (mean < 0.02)
+    said = "what glows is too weak to light the scene, and there is no camera; an even sky"
+    assert (said in made.warnings[0]) == (mean < 0.02)
     assert {"sky", "sun"} & made.scene.keys() == ({"sky", "sun"} if mean < 0.02 else set())
 
 

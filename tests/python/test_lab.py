@@ -29,7 +29,9 @@ def test_every_script_draws_its_figure(name, tmp_path):
 
 def test_the_two_state_table_is_printed(capsys):
     cli.main(["lab", "two_states", "-o", "figure.pdf"])
-    assert "a -> b         9    0.5000    0.1111    0.5000" in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert "a -> b         9    0.5000    0.1111    0.5000" in said.out
+    assert said.err.splitlines()[0] == "pymlt: drawing two_states: Two states"
 
 
 def test_the_list_names_each_script_with_its_topic(capsys):

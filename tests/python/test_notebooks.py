@@ -33,10 +33,23 @@ def test_there_are_notebooks():
     assert {f"{name}-solution" for name in names if not name.endswith("-solution")} <= names
 
 
+def code_cells(path) -> list[dict]:
+    cells = json.loads(path.read_text())["cells"]
+    return [cell for cell in cells if cell["cell_type"] == "code"]
+
+
+def test_the_first_light_path_is_worth_seeing(shell):
+    """As the text beside it says: floor, wall and ball, which more than one technique finds."""
+    for cell in code_cells(DOCS / "notebooks" / "light-paths.ipynb")[:2]:
+        shell.run_cell("".join(cell["source"])).raise_error()
+    path = shell.user_ns["path"]
+    assert path.signature == "LDDSSE"
+    assert sorted(path.weights())[-2] > 0.1
+
+
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_a_notebook_runs_without_warnings(path, shell, capsys):
-    notebook = json.loads(path.read_text())
-    cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    cells = code_cells(path)
     assert all(cell["outputs"] == [] for cell in cells)  # nothing that can be out of date
     if any("mlt.view" in "".join(cell["source"]) for cell in cells):
         pytest.importorskip("viser", reason="the notebook shows the live view")

@@ -12,6 +12,7 @@ import tiny
 import pymlt as mlt
 from pymlt import cli
 from pymlt.pictures.tonemapping import stops_of
+from pymlt.rendering.notebook import Picture
 
 CURVES = ["srgb", "reinhard", "filmic"]
 
@@ -249,6 +250,17 @@ def test_a_result_shows_as_a_picture(result, tmp_path):
     html = result._repr_html_()
     assert np.array_equal(picture_of(html, tmp_path / "b.png"), mlt.read_image(tmp_path / "a.png"))
     assert ", 16 x 12" in html
+
+
+def test_captions_have_the_error(tmp_path):
+    scene = mlt.load_dict(tiny.scene())
+    job = mlt.start(scene, "path", spp=32)
+    result = job.result()
+    error = result._summary().partition(", error ")[2]
+    assert re.fullmatch(r"\d+(\.\d+)? %", error)
+    assert f", error {error}</figcaption>" in Picture(job, 0)._repr_html_()
+    assert f", error {error})</figcaption>" in result._repr_html_()
+    assert re.search(r", error [\d.]+ %</figcaption>", scene._repr_html_())
 
 
 def test_a_scene_shows_as_a_quick_render(tmp_path):

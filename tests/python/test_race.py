@@ -587,7 +587,9 @@ def test_the_command_races_and_writes(painter, tmp_path, monkeypatch):
         *("-o", "race.html", "-o", "race.json", "-o", "race.png"),
     )
     assert outcome.returncode == 0, outcome.stderr
-    warning, *saved = outcome.stderr.splitlines()
+    announcement, warning, *saved = outcome.stderr.splitlines()
+    work = "8 images, 0.2 CPU seconds on each thread for each"
+    assert announcement == f"pymlt: scene.xml: {work}"
     assert warning == "pymlt: warning: bad has left the race: it ended with code 1: no reason given"
     assert saved == ["pymlt: race.html", "pymlt: race.json", "pymlt: race.png"]
     assert {"path", "bdpt:max_depth=3", "painter"} <= set(outcome.stdout.split())

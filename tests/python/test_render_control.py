@@ -12,6 +12,8 @@ import pytest
 import tiny
 
 import pymlt as mlt
+from pymlt.cli.common import say
+from pymlt.rendering.progress import progress_bar
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +87,10 @@ def test_time_is_kept_within_two_percent(integrator):
         {"time": 0},
         {"error": 0},
         {"error": "small"},
+        {"error": "small%"},
+        {"error": "0.05"},
+        {"error": "150%"},
+        {"error": 5},
         {"every": 0},
         {"threads": -1},
         {"seed": -1},
@@ -135,6 +141,17 @@ def test_a_progress_bar_can_be_asked_for(capsys):
     assert "%" in capsys.readouterr().err
     mlt.render(big_scene(), time=0.3)
     assert capsys.readouterr().err == ""  # not a terminal
+
+
+def test_what_is_said_meanwhile_stands_above_the_progress_bar(capsys):
+    with progress_bar(True) as show:
+        show(0.5, {})
+        assert "%" in capsys.readouterr().err
+        say("a line")
+        cleared, line, drawn = capsys.readouterr().err.partition("pymlt: a line\n")
+    assert cleared.endswith("\r")
+    assert line
+    assert "50%" in drawn
 
 
 def test_stats_have_the_promised_members(scene):

@@ -20,6 +20,8 @@ from pymlt.cli.view import given_token
 from pymlt.pictures.tonemapping import encode_srgb, tonemap
 
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
+rich = pytest.importorskip("rich")
+console = pytest.importorskip("rich.console")
 
 from pymlt.viewing import (  # noqa: E402
     formula,
@@ -56,6 +58,17 @@ def test_bad_arguments_are_one_line(capsys, tmp_path):
     assert "--lecture for the examples" in capsys.readouterr().err
     for more in (["ring"], ["--size", "8x8"], ["--sensor", "0"], ["-p", "max_depth=3"]):
         assert main(["view", "--lecture", *more]) == 2
+
+
+def test_nothing_is_printed_in_a_notebook(monkeypatch):
+    """There rich, by which viser prints, displays what it has to say."""
+    said = []
+    monkeypatch.setattr("rich.jupyter.display", lambda *what: said.append(what))
+    monkeypatch.setattr("rich._console", console.Console(force_jupyter=True))
+    mlt.view(tiny.scene()).stop()
+    assert said == []
+    rich.print("later")
+    assert len(said) == 1
 
 
 @pytest.mark.parametrize(

@@ -11,18 +11,40 @@ from collections.abc import Callable
 
 from .. import _core
 from ..formats.loading import load_with_warnings
+from ..rendering.progress import above_bars
 
 FLAGS = {flag.name: flag for flag in _core.render_flags()}
 
 
 class Parser(argparse.ArgumentParser):
-    """Its errors are one line."""
+    """Its errors are one line, which names the flag that a misspelt one may have been."""
+
+    def parse_known_args(self, args=None, namespace=None):
+        texts = sys.argv[1:] if args is None else list(args)
+        commands = next((a.choices for a in self._actions if isinstance(a.choices, dict)), {})
+        for text in texts:
+            flag = text.partition("=")[0]
+            if text == "--" or (commands and not text.startswith("-")):
+                break  # what follows is the command's own
+            if re.fullmatch("--[a-z-]+", flag) and flag not in self._option_string_actions:
+                self.error(f"there is no flag {flag}{self._meant(flag, commands)}")
+        return super().parse_known_args(texts, namespace)
+
+    def _meant(self, flag: str, commands: dict[str, Parser]) -> str:
+        """The flag of this command, or of one of those below, that this one is like."""
+        for parser in (self, *commands.values()):
+            known = [text for text in parser._option_string_actions if text.startswith("--")]
+            hint = _core.suggestion(flag, known)
+            if hint.endswith("?"):
+                return hint if parser is self else f"{hint[:-1]} of {parser.prog}?"
+        return ""
 
     def _print_message(self, message, file=None):
         emit(message.rstrip("\n"))
 
     def error(self, message):
-        raise _core.UsageError(f"{message}; see {self.prog} --help")
+        hint = "" if message.endswith("?") else f"; see {self.prog} --help"
+        raise _core.UsageError(message + hint)
 
 
 def open_standard_streams() -> None:
@@ -37,7 +59,7 @@ def open_standard_streams() -> None:
 def say(message) -> None:
     """One line on stderr, if that can be written to; what is rendered does not depend on it."""
     if sys.stderr is not None:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError), above_bars():
             print("pymlt:", " ".join(str(message).split("\n")), file=sys.stderr, flush=True)
 
 
@@ -64,13 +86,13 @@ def warn(warnings: list[str]) -> None:
         say(f"warning: {warning}")
 
 
-def add_flag(command: Parser, flag: _core.Flag, help: str = "") -> None:
+def add_flag(command: Parser, flag: _core.Flag, help: str = "", read=None) -> None:
     """A flag of the table that mlt-render shares; None (or []) if it is not given."""
-    help = help or flag.help
+    help = (help or flag.help).replace("%", "%%")
     if not flag.has_value:
         command.add_argument(flag.spelling, action="store_true", help=help)
         return
-    settings = {"metavar": flag.metavar, "help": help, "type": reader(flag.read)}
+    settings = {"metavar": flag.metavar, "help": help, "type": reader(read or flag.read)}
     if flag.repeatable:
         settings |= {"action": "append", "default": []}
     if flag.spelling.startswith("-"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .. import _core
 from ..lab.gallery import draw, names, pyplot_module, script, title
-from .common import emit
+from .common import emit, say
 from .figures import check_figure_file, save_figure
 
 HELP = "Run a script of the gallery: show its figure, or save it."
@@ -28,12 +28,15 @@ def run(args) -> int:
     output = args.output
     if output:
         check_figure_file(output)
-        pyplot_module().switch_backend("agg")
+    pyplot = pyplot_module()
+    if output:
+        pyplot.switch_backend("agg")
+    say(f"drawing {args.name}: {title(args.name)}")
     figure = draw(args.name)
     if not output and not has_window():
         output = f"{args.name}.png"
     code = save_figure(figure, output) if output else 0
-    pyplot_module().close(figure)
+    pyplot.close(figure)
     return code
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import shutil
 import textwrap
 
@@ -10,6 +11,7 @@ from .. import _core, scenes
 from ..algorithms.schemas import available, describe
 from .common import emit
 
+SENTENCE_END = re.compile(r"(?<=\.)(?<!\bal\.) (?=[A-Z])")  #: not that of "et al." or "ch. 10"
 HELP = "List plug-ins and built-in scenes, or the parameters of one plug-in."
 
 
@@ -61,5 +63,5 @@ def _table(docs: dict[str, str | None], indent: str) -> list[str]:
 
 def _short(doc: str, room: int) -> str:
     paragraph = " ".join(doc.split("\n\n")[0].split())
-    sentence = paragraph.split(". ")[0]
+    sentence = SENTENCE_END.split(paragraph)[0]
     return textwrap.shorten(sentence, room, placeholder=" ...")

@@ -6,8 +6,9 @@ import io
 import json
 import os
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from .. import _core
 from .._extras import import_extra
@@ -142,10 +143,12 @@ def run(args) -> int:
             for i, start in enumerate(races):
                 numbers = {"scene": args.scenes[i]}
                 watch = Watch(
-                    signals, lambda done, i=i, n=numbers: show((i + done) / len(races), n)
+                    signals,
+                    lambda done, i=i, n=numbers: show((i + done) / len(races), n),
+                    "" if args.quiet else announcement(args, i),
                 )
                 try:
-                    watch(0)
+                    watch.end_if_asked()
                     race.results.append(start(progress=watch))
                 except KeyboardInterrupt:
                     break
@@ -156,16 +159,32 @@ def run(args) -> int:
     return finish(race, args, code)
 
 
-class Watch(NamedTuple):
-    """Shows how far a race is, and raises KeyboardInterrupt once a signal has come."""
+def announcement(args, index: int) -> str:
+    """What a race on one of the scenes is going to do."""
+    images = args.repeats * len([*args.algorithms, *args.programs])
+    place = f" ({index + 1} of {len(args.scenes)})" if len(args.scenes) > 1 else ""
+    work = f"{args.seconds:g} CPU seconds on each thread"
+    return f"{args.scenes[index]}{place}: {images} image{'s' * (images > 1)}, {work} for each"
+
+
+@dataclass
+class Watch:
+    """Says that a race begins, shows how far it is, and ends it once a signal has come."""
 
     signals: Signals
     show: Callable[[float], object]
+    announcement: str
 
     def __call__(self, done: float) -> None:
+        self.end_if_asked()
+        if self.announcement:
+            say(self.announcement)
+            self.announcement = ""
+        self.show(done)
+
+    def end_if_asked(self) -> None:
         if self.signals.caught:
             raise KeyboardInterrupt
-        self.show(done)
 
 
 def finish(race: Race, args, code: int) -> int:

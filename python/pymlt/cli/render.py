@@ -3,29 +3,36 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import fields
 
 from .. import _core
 from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
-from ..formats.loading import built_in_name
 from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.bands import add_bands, check_spectral, parse_bands, share_of_time
 from ..rendering.job import Job
-from ..rendering.options import RenderOptions
+from ..rendering.needed import needed
+from ..rendering.options import RenderOptions, relative_error
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
-from ..rendering.start import saved_job
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
 from .display import add_tonemap, exposure
+from .resuming import SAVED, resumed, to_come
 from .signals import Signals
 
 HELP = "Render a scene to image files."
 
 
+def read_error(text: str) -> float:
+    """A share or percent."""
+    share = FLAGS["error"].read(text.removesuffix("%").rstrip())
+    return relative_error(text if text.endswith("%") else share)
+
+
 # Where pymlt can do more than mlt-render.
+READ_HERE = {"error": read_error}
 HELP_HERE = {
+    "error": "relative error to reach, such as 2% or 0.02",
     "scene": "Mitsuba XML, glTF 2.0 or pbrt file, a mesh (.ply, .obj, .stl), or "
     "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
@@ -39,7 +46,7 @@ GUIDES = "albedo,sh_normal"
 
 def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
-        add_flag(command, flag, HELP_HERE.get(name, ""))
+        add_flag(command, flag, HELP_HERE.get(name, ""), READ_HERE.get(name))
     add_tonemap(command)
     command.add_argument(
         "--bands",
@@ -72,7 +79,7 @@ def given(args) -> dict:
 def check(args) -> None:
     try:
         values = given(args)
-        _core.check_flags(set(values))
+        _core.check_flags(set(values) - SAVED if args.resume else set(values))
         files = {name: values[name] for name in values if FLAGS[name].is_file}
         _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
         if args.bands and (args.checkpoint or args.resume):
@@ -89,12 +96,13 @@ def start(args, signals: Signals) -> Job:
     options.fireflies = args.fireflies or ("groups" if args.denoise else "keep")
     if args.denoise and options.aovs is None:
         options.aovs = GUIDES
+    if args.resume:
+        job = signals.abandonable(lambda: resumed(args, options))._start()
+        if not args.quiet:
+            say(to_come(job, options))
+        return job
     if args.denoise and args.filter is None:
         args.filter = "box"
-    if args.resume:
-        if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
-            raise _core.FileError(f"{args.scene}: there is no such file")
-        return signals.abandonable(lambda: saved_job(args.resume, args.scene, options))._start()
     scene = signals.abandonable(lambda: load_scene(args))
     if args.bands:
         check_spectral(scene, "--spectral")
@@ -134,6 +142,9 @@ def run(args) -> int:
             code = 128 + signals.caught if signals.caught else 0
         if not args.quiet:
             warn(result.stats["warnings"][len(known) :])
+            hint = needed(result)
+            if hint and not args.bands:  # which share the time with the image
+                say(hint)
         images, complete = save(args, result)
     if not args.quiet:
         where = ", ".join(images) or "no image could be saved"

@@ -26,25 +26,28 @@ def film(aspect: float) -> dict[str, Any]:
 
 
 def complete(made: Imported, *, dim: bool = False, announced: bool = True) -> None:
-    """Adds a camera and daylight where there are none; both are warned of if `announced`.
+    """Adds a camera and daylight where there are none, with one warning if `announced`.
 
     `dim` says that what emits is too weak to light the scene.
     """
-    added = []
+    lacks, added = [], []
     dark = not any(map(emits, plugins(made.scene)))
     if dark or dim:
-        why = "there is no light" if dark else "what glows is too weak to light the scene"
-        added.append(f"{why}; an even sky and a sun are added")
+        lacks.append("there is no light" if dark else "what glows is too weak to light the scene")
+        added += ["an even sky", "a sun"]
         made.add("sky", SKY)
     cameras = [plugin for plugin in plugins(made.scene) if plugin["type"] in CAMERAS]
     if not cameras:
-        added.append("there is no camera; one that sees everything is added")
+        lacks.append("there is no camera")
+        added.append("a camera that sees everything")
         cameras.append(overview(made.scene))
         made.add("camera", cameras[0])
     if dark or dim:
         made.add("sun", sun(cameras[0]))
-    for text in added if announced else ():
-        made.warn(text)
+    if announced and added:
+        verb = "is" if len(added) == 1 else "are"
+        things = " and ".join(filter(None, [", ".join(added[:-1]), added[-1]]))
+        made.warn(f"{', and '.join(lacks)}; {things} {verb} added")
 
 
 def plugins(scene: dict[str, Any]) -> list[dict[str, Any]]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from ..pictures.tonemapping import Exposure
 from .notebook import show
-from .options import RenderOptions, integer, number, seconds
+from .options import RenderOptions, integer, number, relative_error, seconds
 from .progress import progress_bar
 from .result import Groups, Replay, Result
 from .stats import Stats
@@ -103,7 +103,7 @@ class Job:
         The image is the same as if the render had had this budget from the start. Raises UsageError
         if the render has not ended, or the budget is not larger.
         """
-        self._job.extend(number("spp", spp), number("time", time), number("error", error))
+        self._job.extend(number("spp", spp), number("time", time), relative_error(error))
 
     def replay(self, pixel: tuple[int, int], sample: int = 0) -> Replay:
         """Repeat one sample of a pixel (x, y), whether it has been taken or not.

@@ -8,6 +8,7 @@ from typing import Any
 from .._extras import import_extra
 from ..pictures.notebook import figure
 from ..pictures.tonemapping import Exposure
+from .summary import summary
 
 
 @dataclass
@@ -22,9 +23,8 @@ class Picture:
 
     def __repr__(self) -> str:
         stats = self.job.stats
-        width, height = stats["size"]
-        done = "" if self.job.ended else f", {100 * self.job.progress:.0f} %"
-        return f"{stats['integrator']}, {width} x {height}, {stats['spp_done']:.4g} spp{done}"
+        done = "" if self.job.ended else f", {100 * self.job.progress:.0f} % done"
+        return summary(stats["integrator"], self.job.image, stats) + done
 
 
 def show(job, interval: float, exposure: Exposure) -> None:

@@ -8,6 +8,7 @@ import numbers
 import operator
 import os
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -20,7 +21,7 @@ class RenderOptions:
 
     spp, time, error
         samples (for Metropolis integrators: mutations) per pixel, seconds, and the relative error
-        of the image (0.02: 2 %), as `stats["error"]` estimates it. The first one to be reached
+        of the image (0.02 or "2%"), as `stats["error"]` estimates it. The first one to be reached
         ends the render; with none, the scene's own sample count counts, else 64.
     seed, threads
         The image depends on the seed (0 to 2**64 - 1) but not on the number of threads (0: all
@@ -58,7 +59,7 @@ class RenderOptions:
 
     spp: float | None = None
     time: float | None = None
-    error: float | None = None
+    error: float | str | None = None
     seed: int = 0
     threads: int = 0
     checkpoint: str | os.PathLike | None = None
@@ -70,8 +71,9 @@ class RenderOptions:
     cluster: Any = None
 
     def __post_init__(self):
-        for name in ("spp", "time", "error", "every"):
+        for name in ("spp", "time", "every"):
             setattr(self, name, number(name, getattr(self, name)))
+        self.error = relative_error(self.error)
         self.seed = integer("seed", self.seed, 2**64)
         self.threads = integer("threads", self.threads, 4097)
         if self.fireflies not in ("keep", "groups"):
@@ -128,6 +130,23 @@ def number(name: str, value) -> float | None:
         return float(value)
     except OverflowError:
         raise _core.UsageError(f"{name} is too large a number") from None
+
+
+def relative_error(value: float | str | None) -> float | None:
+    """A share up to 1, 0.05, or percent, "5%". Raises UsageError for what is neither."""
+    share = None
+    if isinstance(value, str) and value.endswith("%"):
+        with suppress(ValueError):
+            share = float(value[:-1]) / 100
+        if share is None or share > 1:
+            raise _core.UsageError(f"error is {value!r}, but should be at most 100 %, such as '5%'")
+        return share
+    share = number("error", value)
+    if share is not None and share > 1:
+        raise _core.UsageError(
+            f"error is {share:g}, which is {100 * share:g} %; did you mean '{share:g}%'?"
+        )
+    return share
 
 
 def seconds(name: str, value) -> float:

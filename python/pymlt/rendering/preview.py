@@ -19,6 +19,7 @@ def preview(scene: _core.Scene) -> str:
     """
     caption = repr(scene)
     try:
-        return figure(start(scene, "path", spp=SPP, time=SECONDS).result().image, caption)
+        result = start(scene, "path", spp=SPP, time=SECONDS).result()
+        return figure(result.image, f"{caption}: {result._summary()}")
     except _core.Error:
         return f"<p>{escape(caption)}</p>"

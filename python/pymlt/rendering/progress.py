@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 
 _FORMAT = "{desc}{percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
 
@@ -36,6 +36,14 @@ def progress_bar(progress):
     finally:
         with suppress(OSError):
             bar.close()
+
+
+@contextmanager
+def above_bars():
+    """Lines that are printed meanwhile to stderr stand above the progress bars there."""
+    tqdm = sys.modules.get("tqdm")
+    with tqdm.tqdm.external_write_mode(sys.stderr) if tqdm else nullcontext():
+        yield
 
 
 def _is_shown() -> bool:

@@ -13,6 +13,7 @@ from ..pictures.output import OutputFile
 from ..pictures.techniques import Technique, techniques_of
 from ..pictures.tonemapping import Exposure
 from .stats import Stats
+from .summary import summary
 
 if TYPE_CHECKING:
     import numpy as np
@@ -131,15 +132,7 @@ class Result:
         return f"Result({self._summary()})"
 
     def _summary(self) -> str:
-        """What was done, and how good it is, in the words of mlt-render."""
-        height, width = self.image.shape[:2]
-        done = f"{self.integrator['type']}, {width} x {height}, {self.stats['spp_done']:.4g} spp"
-        if seconds := self.stats.get("seconds"):  # not of a merged one
-            done += f" in {seconds['bootstrap'] + seconds['render']:.1f} s"
-        error = self.stats.get("error")
-        if error is not None:
-            done += f", error {100 * error:{'.0f' if error >= 0.1 else '.2g'}} %"
-        return done
+        return summary(self.integrator["type"], self.image, self.stats)
 
 
 class Groups(NamedTuple):

@@ -9,17 +9,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._core import Scene
 from ..algorithms.integrator import IntegratorLike, as_integrator
-from ..formats.files import load_foreign
 from ..formats.loading import SceneLike, as_scene
-from ..scenes.kinds import is_foreign
-from ..scenes.loading import load_built_in
 from .bands import Bands, add_bands, check_spectral, finish, parse_bands, share_of_time
 from .job import Job
 from .options import RenderOptions, seconds, takes_options
 from .progress import progress_bar
 from .result import Replay, Result
+from .saved import saved_job
 
 if TYPE_CHECKING:
     import numpy as np
@@ -81,32 +78,8 @@ def resume(
     cluster
         where to render, as for `start`; it need not be where the render began.
     """
-    return saved_job(os.fspath(path), scene, options)._start()
-
-
-def names_built_in(scene: str | os.PathLike | None, name: str) -> bool:
-    return scene is None or (not os.path.exists(scene) and str(scene).replace("-", "_") == name)
-
-
-def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job:
-    """The job of a checkpoint, not yet started."""
-    saved = _core.Checkpoint(path)
-    if isinstance(scene, Scene | dict):
-        scene = as_scene(scene)
-        saved.check(scene)
-    elif saved.built_in and is_foreign(saved.built_in[0]):
-        name, _, *options_of_scene = saved.built_in
-        scene, _ = load_foreign(name if scene is None else scene, *options_of_scene)
-        saved.check(scene)
-    elif saved.built_in and names_built_in(scene, saved.built_in[0]):
-        scene = load_built_in(*saved.built_in)
-        saved.check(scene)
-    else:
-        scene = saved.load_scene("" if scene is None else os.fspath(scene))
-    options = replace(options, seed=saved.seed, checkpoint=options.checkpoint or path)
-    job = Job(scene, saved.integrator, options)
-    saved.resume(job._job)
-    return job
+    path = os.fspath(path)
+    return saved_job(_core.Checkpoint(path), path, scene, options)._start()
 
 
 @takes_options

@@ -9,20 +9,15 @@ from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike
 from .bands import Bands
 from .job import Job
-from .options import RenderOptions
 from .result import Replay, Result
 
-def names_built_in(
-    scene: str | os.PathLike | None,
-    name: str,
-) -> bool: ...
 def render(
     scene: SceneLike,
     integrator: IntegratorLike | None = ...,
     *,
     spp: float | None = ...,
     time: float | None = ...,
-    error: float | None = ...,
+    error: float | str | None = ...,
     seed: int = ...,
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
@@ -44,7 +39,7 @@ def render_bands(
     *,
     spp: float | None = ...,
     time: float | None = ...,
-    error: float | None = ...,
+    error: float | str | None = ...,
     seed: int = ...,
     threads: int = ...,
     aovs: str | Sequence[str] | None = ...,
@@ -78,7 +73,7 @@ def resume(
     *,
     spp: float | None = ...,
     time: float | None = ...,
-    error: float | None = ...,
+    error: float | str | None = ...,
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
@@ -89,18 +84,13 @@ def resume(
     cluster: Any = ...,
     scene: SceneLike | None = ...,
 ) -> Job: ...
-def saved_job(
-    path: str,
-    scene: SceneLike | None,
-    options: RenderOptions,
-) -> Job: ...
 def start(
     scene: SceneLike,
     integrator: IntegratorLike | None = ...,
     *,
     spp: float | None = ...,
     time: float | None = ...,
-    error: float | None = ...,
+    error: float | str | None = ...,
     seed: int = ...,
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import inspect
 import operator
 import os
+from collections.abc import Iterable
+from typing import Any
 
 from .. import _core, scenes
 from .arrays import with_bytes
@@ -73,21 +75,26 @@ def load_built_in(
     name: str, defines: dict[str, str], size=None, sensor=None, filter=None
 ) -> _core.Scene:
     """Load a scene of this package by its name; `defines` are its parameters, as texts."""
-    function = getattr(scenes, name)
-    known = inspect.signature(function).parameters
+    built_in_defaults(name, defines)
+    scene = getattr(scenes, name)(**{key: number_or_text(value) for key, value in defines.items()})
+    return _core.load_dict(
+        scene, image_size(size), sensor_index(sensor), filter_name(filter), name, defines
+    )
+
+
+def built_in_defaults(name: str, defines: Iterable[str]) -> dict[str, Any]:
+    """The parameters of a built-in scene. Raises UsageError for a define that is none of them."""
+    known = inspect.signature(getattr(scenes, name)).parameters
     for define in defines:
         if define not in known:
             raise _core.UsageError(
                 f"-D {define}: unknown parameter of the scene {name!r}"
                 + _core.suggestion(define, list(known)),
             )
-    scene = function(**{key: _number(value) for key, value in defines.items()})
-    return _core.load_dict(
-        scene, image_size(size), sensor_index(sensor), filter_name(filter), name, defines
-    )
+    return {parameter.name: parameter.default for parameter in known.values()}
 
 
-def _number(text: str) -> int | float | str:
+def number_or_text(text: str) -> int | float | str:
     for kind in (int, float):
         try:
             return kind(text)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import io
 import logging
 import threading
 from collections.abc import Iterator
@@ -18,7 +17,7 @@ from websockets.frames import CloseCode
 from .. import _core
 from .gate import Gate
 
-#: Both a module and the standard output are changed for a while.
+#: Both a module and the console of rich are changed for a while.
 _one_at_a_time = threading.Lock()
 
 
@@ -42,9 +41,19 @@ def stop_viser(server: Any) -> None:
 
 @contextlib.contextmanager
 def _silence() -> Iterator[None]:
-    """viser prints its own address, which is not the one to open, and that it has stopped."""
-    with _one_at_a_time, contextlib.redirect_stdout(io.StringIO()):
-        yield
+    """viser prints its own address, which is not the one to open, and that it has stopped.
+
+    It prints by rich, which in a notebook leaves the standard output out.
+    """
+    import rich
+
+    console = rich.get_console()
+    with _one_at_a_time:
+        before, console.quiet = console.quiet, True
+        try:
+            yield
+        finally:
+            console.quiet = before
 
 
 @contextlib.contextmanager
