@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "scene_dict.h"
 #include "scene_editing.h"
+#include "scene_parts.h"
 #include "shape_triangles.h"
 #include "text.h"
 
@@ -110,9 +111,10 @@ py::str describe_scene(const LoadedScene& loaded) {
 }  // namespace
 
 void bind_scene(py::module_& m) {
-  py::class_<LoadedScene, LoadedPtr>(
-      m, "Scene", "An immutable world, as load_file, load_string or load_dict made it.")
-      .def_property_readonly("width", [](const LoadedScene& s) { return image_size(*s.scene).x; })
+  py::class_<LoadedScene, LoadedPtr> scene(
+      m, "Scene", "An immutable world, as load_file, load_string or load_dict made it.");
+  bind_scene_parts(scene);
+  scene.def_property_readonly("width", [](const LoadedScene& s) { return image_size(*s.scene).x; })
       .def_property_readonly("height", [](const LoadedScene& s) { return image_size(*s.scene).y; })
       .def_property_readonly(
           "warnings", [](const LoadedScene& s) { return to_list(s.warnings); },
@@ -133,10 +135,6 @@ void bind_scene(py::module_& m) {
            "The same scene, with spectral films: light has wavelengths instead of R, G and B.\n\n"
            "With a `band` of wavelengths, as in (400, 430), the image shows the mean radiance in "
            "it,\nper nm, as a grey.")
-      .def(
-          "with_sensor",
-          [](const LoadedScene& s, int64_t sensor) { return with_sensor(s, sensor, plugins()); },
-          py::arg("sensor"), NoGil(), "The same scene, seen by another of its sensors.")
       .def("parameters", &scene_parameters, "What can be changed, by name, with its current value.")
       .def(
           "updated",

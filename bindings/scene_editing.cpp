@@ -58,15 +58,25 @@ std::optional<Vec2i> edited_size(std::optional<Vec2i> size, const NamedParameter
   return size;
 }
 
-}  // namespace
-
-py::dict scene_parameters(const LoadedScene& loaded) {
+/// The parameters whose names begin so, with the rest of their names.
+py::dict parameters_below(const LoadedScene& loaded, const std::string& beginning) {
   Node tree = loaded.tree;
   py::dict all;
-  for (const NamedNode& plugin : name_nodes(tree, plugins()))
+  for (const NamedNode& plugin : name_nodes(tree, plugins())) {
+    const std::string name = plugin.name + ".";
+    if (name.compare(0, beginning.size(), beginning) != 0) continue;
     for (const auto& [parameter, value] : values_of(plugin))
-      all[to_str(plugin.name + "." + std::string(py::str(parameter)))] = value;
+      all[to_str(name.substr(beginning.size()) + std::string(py::str(parameter)))] = value;
+  }
   return all;
+}
+
+}  // namespace
+
+py::dict scene_parameters(const LoadedScene& loaded) { return parameters_below(loaded, ""); }
+
+py::dict parameters_of(const LoadedScene& loaded, const std::string& part) {
+  return parameters_below(loaded, part + ".");
 }
 
 LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values) {

@@ -8,6 +8,9 @@ namespace mlt::python {
 /// Names and current values.
 py::dict scene_parameters(const LoadedScene& loaded);
 
+/// The names and values of one plug-in, and of what is nested in it, without its own name.
+py::dict parameters_of(const LoadedScene& loaded, const std::string& part);
+
 /// Throws UsageError for a name that the scene does not have, SceneError for a value.
 LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values);
 

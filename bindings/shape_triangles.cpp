@@ -4,8 +4,6 @@
 #include "scene/accel/instance.h"
 #include "scene/mesh/mesh.h"
 
-#include <unordered_set>
-
 namespace mlt::python {
 namespace {
 
@@ -88,12 +86,17 @@ py::dict described(const Shape& shape, uint32_t index, const Vec3f& origin) {
 
 }  // namespace
 
-py::list shape_triangles(const LoadedScene& loaded) {
-  const std::vector<ShapePtr>& shapes = loaded.scene->shapes();
+std::unordered_set<const Shape*> shapes_in_groups(const Scene& scene) {
   std::unordered_set<const Shape*> in_groups;
-  for (const ShapePtr& shape : shapes)
+  for (const ShapePtr& shape : scene.shapes())
     if (const Instance* instance = shape->as_instance())
       for (const ShapePtr& part : instance->group().shapes()) in_groups.insert(part.get());
+  return in_groups;
+}
+
+py::list shape_triangles(const LoadedScene& loaded) {
+  const std::vector<ShapePtr>& shapes = loaded.scene->shapes();
+  const std::unordered_set<const Shape*> in_groups = shapes_in_groups(*loaded.scene);
   py::list shown;
   for (uint32_t i = 0; i < shapes.size(); ++i)
     if (!in_groups.count(shapes[i].get()))

@@ -37,8 +37,16 @@ class Scene:
         per nm, as a grey.
         """
 
-    def with_sensor(self, sensor: int) -> Scene:
+    @overload
+    def with_sensor(self, sensor: int | Part) -> Scene:
         """The same scene, seen by another of its sensors."""
+
+    @overload
+    def with_sensor(self, sensor: dict[str, Any]) -> Scene:
+        """The same scene, seen by a sensor that is not in it, a dict with its film inside.
+
+        Raises SceneError for one that is wrong.
+        """
 
     def parameters(self) -> dict[str, Any]:
         """What can be changed, by name, with its current value."""
@@ -50,6 +58,55 @@ class Scene:
         the same is shared with this scene, which does not change. Raises UsageError for a name that
         the scene does not have, SceneError for a value that does not fit.
         """
+
+    class Part:
+        """A plug-in of a scene."""
+
+        @property
+        def name(self) -> str:
+            """What its parameters begin with: its id, or one that was given to it."""
+
+        @property
+        def type(self) -> str:
+            """The name of its plug-in, such as "sphere"."""
+
+        @property
+        def index(self) -> int:
+            """Its place in the list; of a sensor, what `sensor=` means by it."""
+
+        @property
+        def parameters(self) -> dict[str, Any]:
+            """What can be changed, without its own name, with the values of now."""
+
+        def __index__(self) -> int: ...
+
+    class ShapePart(Part):
+        """A shape or an instance of a scene."""
+
+        @property
+        def material(self) -> str:
+            """The name of its BSDF; empty for instances."""
+
+        @property
+        def bbox(self) -> tuple[np.ndarray, np.ndarray]:
+            """The lowest and the highest coordinates, two arrays (3,), at all times."""
+
+        @property
+        def emits(self) -> bool:
+            """Whether it is a lamp."""
+
+    def shapes(self) -> list[ShapePart]:
+        """Its shapes and instances, without parts of groups, in the order that `triangles` and
+        LightPath.vertices have."""
+
+    def emitters(self) -> list[Part]:
+        """Its lights, those of shapes among them."""
+
+    def sensors(self) -> list[Part]:
+        """Its sensors, any of which may be given to `render` as `sensor`."""
+
+    def bbox(self) -> tuple[np.ndarray, np.ndarray]:
+        """The lowest and the highest coordinates of all shapes, two arrays (3,), at all times."""
 
     def triangles(self) -> list[dict[str, Any]]:
         """The shapes as triangles, to be drawn: a list of dicts with shape (as

@@ -50,7 +50,7 @@ from typing import Any
 import numpy as np
 
 from ..algorithms.integrator import IntegratorLike
-from ..formats.loading import SceneLike
+from ..formats.loading import SceneLike, SensorLike
 from .bands import Bands
 from .job import Job
 from .result import Replay, Result

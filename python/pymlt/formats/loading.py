@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 from .. import _core, scenes
+from ..scenes import replaced
 from ..scenes.kinds import check_kind, is_foreign
 from ..scenes.loading import (
     define_texts,
@@ -18,6 +19,7 @@ from ..scenes.traversal import SceneParameters
 from .files import load_foreign, warn_all
 
 SceneLike = _core.Scene | SceneParameters | dict | str | os.PathLike
+SensorLike = _core.Scene.Part | int | dict
 
 
 def load(
@@ -84,12 +86,20 @@ def existing_name(text: str) -> str:
 
 
 def as_scene(scene, sensor=None, spectral=False) -> _core.Scene:
-    """What `scene` means: itself, a dict, the path of a file, or a built-in scene's name."""
+    """What `scene` means: itself, a dict, the path of a file, or a built-in scene's name.
+
+    `sensor` is the index of one of its sensors, a member of `Scene.sensors`, or the dict of another
+    one.
+    """
     if spectral:
         return as_scene(scene, sensor).with_wavelengths()
+    if isinstance(sensor, dict):
+        return as_scene(scene).with_sensor(sensor)
     if isinstance(scene, SceneParameters):
         scene = scene.scene
     if isinstance(scene, _core.Scene):
+        replaced.fetch(scene)
+        replaced.warn_if_replaced(scene)
         return scene if sensor is None else scene.with_sensor(sensor_index(sensor))
     if isinstance(scene, dict):
         return load_dict(scene, sensor=sensor)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..algorithms.integrator import IntegratorLike, as_integrator
-from ..formats.loading import SceneLike, as_scene
+from ..formats.loading import SceneLike, SensorLike, as_scene
 from .bands import Bands, add_bands, check_spectral, finish, parse_bands, share_of_time
 from .job import Job
 from .options import RenderOptions, seconds, takes_options
@@ -27,7 +27,7 @@ def start(
     scene: SceneLike,
     integrator: IntegratorLike | None = None,
     *,
-    sensor: int | None = None,
+    sensor: SensorLike | None = None,
     spectral: bool = False,
     options: RenderOptions,
 ) -> Job:
@@ -40,7 +40,8 @@ def start(
         `mlt`. A name keeps what the scene says about what is to be rendered (max_depth,
         hide_emitters, strict_normals); an object or a dict means exactly what it says.
     sensor
-        which of the scene's sensors sees it, counted from 0; None is the first one, or that with
+        which of the scene's sensors sees it: counted from 0, or one of `Scene.sensors()`; or a dict
+        for a sensor that is not in the scene, with its film. None is the first one, or that with
         which `scene` was loaded.
     spectral
         whether light has wavelengths instead of R, G and B; so it is too if the film says so.
@@ -87,7 +88,7 @@ def render(
     scene: SceneLike,
     integrator: IntegratorLike | None = None,
     *,
-    sensor: int | None = None,
+    sensor: SensorLike | None = None,
     spectral: bool = False,
     options: RenderOptions,
     progress: bool | Callable[[float], object] | None = None,
@@ -128,7 +129,7 @@ def render_bands(
     integrator: IntegratorLike | None = None,
     *,
     bands: Bands,
-    sensor: int | None = None,
+    sensor: SensorLike | None = None,
     spectral: bool = False,
     options: RenderOptions,
     progress: bool | Callable[[float], object] | None = None,
@@ -204,7 +205,7 @@ def replay(
     pixel: tuple[int, int],
     sample: int = 0,
     seed: int = 0,
-    sensor: int | None = None,
+    sensor: SensorLike | None = None,
     spectral: bool = False,
 ) -> Replay:
     """Repeat one sample of the pixel (x, y) of the render that these arguments mean.

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..algorithms.integrator import IntegratorLike
-from ..formats.loading import SceneLike
+from ..formats.loading import SceneLike, SensorLike
 from .bands import Bands
 from .job import Job
 from .result import Replay, Result
@@ -27,7 +27,7 @@ def render(
     alpha: bool = ...,
     fireflies: str = ...,
     cluster: Any = ...,
-    sensor: int | None = ...,
+    sensor: SensorLike | None = ...,
     spectral: bool = ...,
     progress: bool | Callable[[float], object] | None = ...,
     callback: Callable[[Result], object] | None = ...,
@@ -47,7 +47,7 @@ def render_bands(
     fireflies: str = ...,
     cluster: Any = ...,
     bands: Bands,
-    sensor: int | None = ...,
+    sensor: SensorLike | None = ...,
     spectral: bool = ...,
     progress: bool | Callable[[float], object] | None = ...,
 ) -> Result: ...
@@ -65,7 +65,7 @@ def replay(
     pixel: tuple[int, int],
     sample: int = ...,
     seed: int = ...,
-    sensor: int | None = ...,
+    sensor: SensorLike | None = ...,
     spectral: bool = ...,
 ) -> Replay: ...
 def resume(
@@ -100,6 +100,6 @@ def start(
     alpha: bool = ...,
     fireflies: str = ...,
     cluster: Any = ...,
-    sensor: int | None = ...,
+    sensor: SensorLike | None = ...,
     spectral: bool = ...,
 ) -> Job: ...

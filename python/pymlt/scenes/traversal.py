@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, MutableMapping
+import re
+from collections.abc import Iterable, Iterator, MutableMapping
 from typing import Any
 
 from .. import _core
-from . import mitsuba_names
+from . import mitsuba_names, replaced
 from .mitsuba_names import Meaning, meaning
 from .nearest import nearest_names
 
@@ -28,13 +29,19 @@ class SceneParameters(MutableMapping[str, Any]):
     """
 
     def __init__(self, scene: _core.Scene):
-        self.scene = scene  #: with all changes up to the last `update`
+        self._scene = scene
         self._values = scene.parameters()
         self._changes: dict[str, Any] = {}
 
+    @property
+    def scene(self) -> _core.Scene:
+        """With all changes up to the last `update`."""
+        replaced.fetch(self._scene)
+        return self._scene
+
     def __getitem__(self, name: str) -> Any:
         """Raises UsageError, which is a KeyError, for a name that the scene does not have."""
-        size = (self.scene.width, self.scene.height)
+        size = (self._scene.width, self._scene.height)
         return mitsuba_names.read(self._meaning(name), self._values, size)
 
     def __setitem__(self, name: str, value: Any) -> None:
@@ -71,17 +78,38 @@ class SceneParameters(MutableMapping[str, Any]):
         Raises UsageError for an unknown name, SceneError for a value that does not fit: nothing of
         what has been set since the last update counts then.
         """
-        before = self.scene.parameters()
+        old = self._scene
         try:
             super().update(values, **more)
-            self.scene = self.scene.updated(self._changes)
-        except _core.Error:
-            self._values = before
-            raise
+            if self._changes:
+                self._scene = old.updated(self._changes)
+                replaced.replace(old, self._scene)
         finally:
             self._changes = {}
-        self._values = self.scene.parameters()
-        return self.scene
+            now = self._scene.parameters()
+            self._values = {name: now[name] for name in self._values if name in now}
+        return self._scene
+
+    def keep(self, names: str | Iterable[str]) -> None:
+        """Leave out all parameters but these, as in Mitsuba.
+
+        A name may be a regular expression for the beginning of names. Raises UsageError for one
+        that no parameter has.
+        """
+        kept: set[str] = set()
+        for name in [names] if isinstance(names, str) else names:
+            kept.update(self._named(name))
+        self._values = {name: value for name, value in self._values.items() if name in kept}
+
+    def _named(self, pattern: str) -> list[str]:
+        """The names that it means or matches."""
+        if (found := meaning(pattern, self._values)) is not None:
+            return list(found.names)
+        try:
+            matching = [name for name in self._values if re.match(pattern, name)]
+        except re.error as error:
+            raise _core.UsageError(f"{pattern!r} is no regular expression: {error}") from None
+        return matching or list(self._meaning(pattern).names)
 
 
 def traverse(scene: _core.Scene) -> SceneParameters:
