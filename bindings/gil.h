@@ -49,4 +49,17 @@ class AcquiredGil {
   std::optional<pybind11::gil_scoped_acquire> lock_;
 };
 
+/// Python's state of a thread of the renderer, kept from its first call to its end: making one
+/// costs as much as a short call.
+struct ThreadState {
+  ThreadState() { AcquiredGil()->inc_ref(); }
+  ~ThreadState() { AcquiredGil()->dec_ref(); }
+};
+
+/// Acquires the lock in a thread of the renderer. One that Python has started has a state already.
+inline AcquiredGil acquire_gil() {
+  if (!PyGILState_GetThisThreadState()) thread_local const ThreadState kept;
+  return {};
+}
+
 }  // namespace mlt::python

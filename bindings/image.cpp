@@ -97,6 +97,15 @@ void bind_image(py::module_& m) {
         return fitting_exposure(image);
       },
       py::arg("image"), "The stops that suit a linear image.");
+  m.def(
+      "encode_jpeg",
+      [](const Floats& array, double exposure) {
+        const Image image = to_image(array);
+        return py::bytes(without_gil([&] { return jpeg_of(image, exposure); }));
+      },
+      py::arg("image"), py::arg("exposure") = 0.0,
+      "A JPEG file of linear pixels: 8 bits, sRGB, full resolution of the colours.\n\n"
+      "Raises UsageError for an image that JPEG cannot hold, such as one with alpha.");
   m.def("is_known_image", [](const Text& path) { return is_known_image(path); }, py::arg("path"));
   m.def(
       "read_file",

@@ -1,5 +1,6 @@
 // The laboratory on the space of light paths: L* as a target, and chains of paths.
 #include "metropolis_chains.h"
+#include "path_factor.h"
 #include "python_mutation.h"
 
 #include "mutation/evaluate_proposal.h"
@@ -99,9 +100,13 @@ class PathChains final : public AnyChains {
 };
 
 PyPathTarget make_path_target(const LoadedPtr& scene, int max_depth, bool hide_emitters,
-                              bool strict_normals, double near_specular) {
+                              bool strict_normals, double near_specular,
+                              const std::optional<std::string>& paths, const py::object& weight,
+                              double power) {
   const PathRules rules = path_rules(max_depth, hide_emitters, strict_normals);
-  return {scene, PathTarget(scene->scene, rules, near_specular)};
+  PyPathTarget made{scene, PathTarget(scene->scene, rules, near_specular)};
+  made.target.set_path_factor(path_factor(scene, {paths, weight, power}, strict_normals));
+  return made;
 }
 
 /// One path for all chains, or a list with one for each.
@@ -147,11 +152,18 @@ void bind_path_target(py::module_& core) {
         return py::make_tuple(std::move(made), "object");
       });
   py::class_<LoadedScene, LoadedPtr>(core.attr("Scene"))
-      .def("path_target", &make_path_target, py::kw_only(), py::arg("max_depth") = 8,
-           py::arg("hide_emitters") = false, py::arg("strict_normals") = false,
-           py::arg("near_specular") = 0.1,
-           "L* of the paths of this scene as a target for `metropolis.run`, with mutations as its "
-           "moves.");
+      .def(
+          "path_target", &make_path_target, py::kw_only(), py::arg("max_depth") = 8,
+          py::arg("hide_emitters") = false, py::arg("strict_normals") = false,
+          py::arg("near_specular") = 0.1, py::arg("paths") = py::none(),
+          py::arg("weight") = py::none(), py::arg("power") = 1.0,
+          "L* of the paths of this scene as a target for `metropolis.run`, with mutations as its "
+          "moves;\nor another target: L*^power, times a weight, of some paths alone.\n\n"
+          "`paths` is a regular expression for signatures, such as \"LS+DE\" for caustics "
+          "(smooth\nsurfaces below the roughness near_specular count as S). `weight` is a function "
+          "of a LightPath\nthat is nowhere negative, or an array (height, width) by the pixels of "
+          "the image. `power` below 1\nmakes bright paths rarer. Raises UsageError for a factor "
+          "that makes no sense.");
 }
 
 }  // namespace mlt::python

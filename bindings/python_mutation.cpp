@@ -10,19 +10,6 @@ namespace {
 
 std::string repr(const py::object& object) { return py::repr(object); }
 
-/// Python's state of a thread of the renderer, kept from its first call to its end: making one
-/// costs as much as a short call.
-struct ThreadState {
-  ThreadState() { AcquiredGil()->inc_ref(); }
-  ~ThreadState() { AcquiredGil()->dec_ref(); }
-};
-
-/// Acquires the GIL. A thread that Python has started has a state already.
-AcquiredGil acquire_gil() {
-  if (!PyGILState_GetThisThreadState()) thread_local const ThreadState kept;
-  return {};
-}
-
 /// An object with suitability(x), propose(x, rng) and density(x, y). Calls take the GIL, so that a
 /// render may run on many threads; all of them share the object.
 class PythonMutation final : public Mutation {

@@ -85,7 +85,7 @@ const std::vector<Flag>& render_flags() {
       {"scene", "scene", "SCENE", &any_text, "Mitsuba XML file, or the name of a built-in scene",
        Flag::file},
       {"output", "-o,--output", "FILE", &any_text,
-       "image file: .exr, .png or .hdr; may be repeated",
+       "image file: .exr, .png, .jpg or .hdr; may be repeated",
        Flag::required | Flag::repeatable | Flag::file},
       {"integrator", "--integrator", "NAME", &any_text, "algorithm, in place of the scene's own",
        Flag::fixed_by_resume},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 #include "base/atomic_file.h"
@@ -83,15 +84,43 @@ void check_channels(const std::string& path, const Image& image) {
                      " channels can only be written as EXR, with names for them");
 }
 
-enum class Target { exr, png, hdr };
+/// The rows of an image as bytes: colours brightened and encoded as sRGB.
+class EncodedRows {
+ public:
+  EncodedRows(const Image& image, double exposure)
+      : image_(image),
+        scale_(std::exp2(exposure)),
+        samples_(static_cast<size_t>(image.channels) * static_cast<size_t>(image.width)) {
+    if (!(std::abs(exposure) <= max_exposure))
+      throw UsageError(
+          fmt::format("exposure is {}, but should lie between -128 and 128", exposure));
+  }
+
+  const unsigned char* operator()(int y) {
+    const size_t channels = static_cast<size_t>(image_.channels);
+    const size_t colours = channels - (channels % 2 == 0 ? 1 : 0);
+    const float* from = &image_.data[static_cast<size_t>(y) * samples_.size()];
+    for (size_t i = 0; i < samples_.size(); ++i)
+      samples_[i] = to_byte(i % channels < colours ? linear_to_srgb(scale_ * from[i]) : from[i]);
+    return samples_.data();
+  }
+
+ private:
+  const Image& image_;
+  double scale_;
+  std::vector<unsigned char> samples_;
+};
+
+enum class Target { exr, png, jpeg, hdr };
 
 Target target_of(const std::string& path) {
   const std::string extension = extension_of(path);
   if (extension == ".exr") return Target::exr;
   if (extension == ".png") return Target::png;
+  if (extension == ".jpg" || extension == ".jpeg") return Target::jpeg;
   if (extension == ".hdr") return Target::hdr;
   throw UsageError(path + ": cannot write an image with the extension '" + extension +
-                   "'; valid are: .exr, .png, .hdr");
+                   "'; valid are: .exr, .png, .jpg, .jpeg, .hdr");
 }
 
 }  // namespace
@@ -154,21 +183,20 @@ void write_exr(const std::string& path, const Image& image, const WriteOptions& 
 
 void write_png(const std::string& path, const Image& image, double exposure) {
   check_channels(path, image);
-  if (!(std::abs(exposure) <= max_exposure))
-    throw UsageError(fmt::format("exposure is {}, but should lie between -128 and 128", exposure));
-  const double scale = std::exp2(exposure);
-  const size_t channels = static_cast<size_t>(image.channels);
-  const size_t colours = channels - (channels % 2 == 0 ? 1 : 0);
-  const size_t row = channels * static_cast<size_t>(image.width);
-  std::vector<unsigned char> samples(row);
+  EncodedRows rows(image, exposure);
   AtomicFile file(path);
-  encode_png(file, image.width, image.height, image.channels, [&](int y) {
-    const float* from = &image.data[static_cast<size_t>(y) * row];
-    for (size_t i = 0; i < row; ++i)
-      samples[i] = to_byte(i % channels < colours ? linear_to_srgb(scale * from[i]) : from[i]);
-    return samples.data();
-  });
+  encode_png(file, image.width, image.height, image.channels, std::ref(rows));
   file.commit();
+}
+
+std::string jpeg_of(const Image& image, double exposure) {
+  EncodedRows rows(image, exposure);
+  return encode_jpeg(image.width, image.height, image.channels, std::ref(rows));
+}
+
+void write_jpeg(const std::string& path, const Image& image, double exposure) {
+  check_channels(path, image);
+  write_file(path, jpeg_of(image, exposure));
 }
 
 void write_hdr(const std::string& path, const Image& image) {
@@ -182,6 +210,7 @@ void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
   if (layers.empty()) throw UsageError(path + ": there is no image to write");
   if (target == Target::exr) write_exr(path, layers, options);
   if (target == Target::png) write_png(path, layers.front().image, options.exposure);
+  if (target == Target::jpeg) write_jpeg(path, layers.front().image, options.exposure);
   if (target == Target::hdr) write_hdr(path, layers.front().image);
 }
 

@@ -42,7 +42,7 @@ constexpr double max_exposure = 128;
 struct WriteOptions {
   bool half = false;    // EXR: 16-bit samples
   Metadata metadata;    // EXR: text attributes
-  double exposure = 0;  // PNG: stops by which the image is brightened
+  double exposure = 0;  // PNG, JPEG: stops by which the image is brightened
 };
 
 /// Writes linear samples unchanged. Equal images and options make equal files.
@@ -54,10 +54,14 @@ void write_exr(const std::string& path, const std::vector<ExrLayer>& layers,
 /// encoded, rounded.
 void write_png(const std::string& path, const Image& image, double exposure = 0);
 
+/// As PNG, with the losses of JPEG. Throws UsageError for more than 3 channels.
+std::string jpeg_of(const Image& image, double exposure = 0);
+void write_jpeg(const std::string& path, const Image& image, double exposure = 0);
+
 void write_hdr(const std::string& path, const Image& image);
 
-/// Writes by extension: .exr, .png or .hdr, else a UsageError that lists them. Only EXR holds more
-/// than the first layer.
+/// Writes by extension: .exr, .png, .jpg, .jpeg or .hdr, else a UsageError that lists them. Only EXR
+/// holds more than the first layer.
 void write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
 void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
                  const WriteOptions& options = {});

@@ -55,7 +55,8 @@ class PathSeeds {
     paths_.sample(raster, sampler, rays_);
     paths_.connect_all(rays_, [&](const Connection& c) {
       if (!(target_luminance(c.contribution) * c.weight > 0)) return;
-      const double weight = target_->of(c.contribution, c.raster, c.certainty) * c.weight;
+      double weight = target_->of(c.contribution, c.raster, c.certainty) * c.weight;
+      if (target_->has_path_factor() && weight > 0) weight *= path_factor(c);
       if (std::isfinite(weight)) found(c, weight);
     });
   }
@@ -83,9 +84,18 @@ class PathSeeds {
   Vec2 position(Sampler& sampler) const {
     return target_->scene().camera().raster().sample(sampler.next2());
   }
+  /// T with the factor that depends on the path over T without.
+  double path_factor(const Connection& connection) {
+    PathState& x = assembled_;
+    assemble(connection, x);
+    const double without = target_->of(x.rgb, x.raster, certainty(x.terms));
+    return without > 0 ? x.target / without : 0;
+  }
+
   const PathTarget* target_;
   BidirectionalSampler paths_;
   RayCounts rays_;
+  PathState assembled_;
 };
 
 struct PathStarts {

@@ -35,6 +35,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   x.raster = *x.terms.raster;
   x.rgb = f;
   x.target = of(f, x.raster, certainty(x.terms));
+  if (path_factor_ && x.target > 0) x.target *= path_factor_(x);
   if (weights_.threshold() > 0 && x.target > 0) {
     const double tau = x.target / density(x);
     x.known.over_density.set(tau);

@@ -4,6 +4,7 @@
 //
 // m is the factor of two-stage sampling, and w2 the share of T that is left to chains where there
 // are independent samples beside them (ClampingWeights). Chains have the target T'.
+// A factor that depends on the whole path makes another target of T.
 #pragma once
 
 #include "markov/clamping_weights.h"
@@ -13,6 +14,7 @@
 #include "path/manifold_sampler.h"
 #include "path/path_rules.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -37,6 +39,11 @@ class PathTarget {
   /// The map of two-stage sampling, a factor of the target; nullptr without.
   const TargetMap* map() const { return map_ ? &*map_ : nullptr; }
   void set_map(TargetMap map) { map_ = std::move(map); }
+
+  /// A factor of the target, for a path whose T is known without it. Threads share the function.
+  using PathFactor = std::function<double(const PathState&)>;
+  void set_path_factor(PathFactor factor) { path_factor_ = std::move(factor); }
+  bool has_path_factor() const { return path_factor_ != nullptr; }
 
   /// The techniques of the independent samples, which find the paths of chains too.
   SampleTechniques techniques() const { return techniques_; }
@@ -110,6 +117,7 @@ class PathTarget {
   PathRules rules_;
   double near_specular_;
   std::optional<TargetMap> map_;
+  PathFactor path_factor_;
   std::optional<CertainLight> certain_light_;
   std::shared_ptr<const ManifoldGuide> manifolds_;
   std::shared_ptr<const ManifoldSampler> manifold_;

@@ -1,4 +1,4 @@
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -162,8 +162,19 @@ class Scene:
         hide_emitters: bool = False,
         strict_normals: bool = False,
         near_specular: float = 0.1,
+        paths: str | None = None,
+        weight: Callable[[LightPath], float] | ArrayLike | None = None,
+        power: float = 1.0,
     ) -> _MetropolisModule.PathTarget:
-        """L* of the paths of this scene as a target for `metropolis.run`."""
+        """L* of the paths of this scene as a target for `metropolis.run`, with mutations as its
+        moves; or another target: L*^power, times a weight, of some paths alone.
+
+        `paths` is a regular expression for signatures, such as "LS+DE" for caustics (smooth
+        surfaces below the roughness near_specular count as S). `weight` is a function of a
+        LightPath that is nowhere negative, or an array (height, width) by the pixels of the image.
+        `power` below 1 makes bright paths rarer. Raises UsageError for a factor that makes no
+        sense.
+        """
 
     @overload
     def intersect(
@@ -621,6 +632,12 @@ def with_mutations(
 def alpha_problem(path: str) -> str: ...
 def read_image(path: str, layer: str = "") -> np.ndarray: ...
 def decode_image(bytes: bytes, name: str) -> np.ndarray: ...
+def encode_jpeg(image: np.ndarray, exposure: float = 0.0) -> bytes:
+    """A JPEG file of linear pixels: 8 bits, sRGB, full resolution of the colours.
+
+    Raises UsageError for an image that JPEG cannot hold, such as one with alpha.
+    """
+
 def fitting_exposure(image: np.ndarray) -> float: ...
 def is_known_image(path: str) -> bool: ...
 def read_file(path: str, largest: int) -> bytes: ...

@@ -7,14 +7,14 @@ import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
-from .jpeg import encode_jpeg, is_jpeg
 from .techniques import technique_figure, techniques_of
 from .tonemapping import Exposure, check_tonemap, stops_of, straight, tonemap
 
 if TYPE_CHECKING:
     import numpy as np
 
-EXTENSIONS = (".exr", ".png", ".jpg", ".jpeg", ".hdr")
+PICTURES = (".png", ".jpg", ".jpeg")
+EXTENSIONS = (".exr", *PICTURES, ".hdr")
 
 
 class OutputFile(NamedTuple):
@@ -30,20 +30,14 @@ class OutputFile(NamedTuple):
 
     def write(self) -> None:
         """Raises FileError if it cannot be written, UsageError for what the format cannot hold."""
-        if is_jpeg(self.path):
-            _core.replace_file(self.path, encode_jpeg(self.image, self.curve, self.exposure))
-        else:
-            _core.write_image(*self._arguments())
-            self._draw_techniques(self.path)
+        _core.write_image(*self._arguments())
+        self._draw_techniques(self.path)
 
     def save(self) -> tuple[str, str]:
         """The same, elsewhere if that fails.
 
         Returns where the file is, or ""; and why it is not at `path`, or "".
         """
-        if is_jpeg(self.path):
-            content = encode_jpeg(self.image, self.curve, self.exposure)
-            return _core.save_text(self.path, content)
         where, problem = _core.save_image(*self._arguments())
         try:
             self._draw_techniques(where)
@@ -64,8 +58,8 @@ class OutputFile(NamedTuple):
         check_extension(self.path)
         image, layers, exposure = self.image, self.layers, stops_of(self.exposure, self.image)
         check_tonemap(self.curve)
-        if self.curve != "srgb" and self.path.lower().endswith(".png"):
-            if "alpha" in layers:
+        if self.curve != "srgb" and self.path.lower().endswith(PICTURES):
+            if "alpha" in layers and not _core.alpha_problem(self.path):
                 image, layers = straight(image, layers["alpha"]), {}
             image, exposure = tonemap(image, self.curve, exposure=exposure), 0
         return self.path, image, layers, self.metadata, self.half, exposure

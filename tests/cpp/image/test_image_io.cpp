@@ -112,6 +112,21 @@ TEST(ImageIo, PngIsExposedClippedEncodedAndRounded) {
   }
 }
 
+TEST(ImageIo, JpegShowsWhatPngDoes) {
+  const TemporaryFolder folder;
+  for (const int channels : {1, 3}) {
+    Image image(40, 24, channels);
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 40; ++x)
+        for (int c = 0; c < channels; ++c)
+          image.at(x, y, c) = static_cast<float>(0.1 + 0.005 * x * (c + 1) + 0.01 * y);
+    write_png(folder / "a.png", image, -0.5);
+    const ReadImage read = read_image_memory(jpeg_of(image, -0.5), "a.jpg");
+    EXPECT_TRUE(read.srgb_encoded);
+    expect_near(read.image, read_image(folder / "a.png").image, 4.0 / 255);
+  }
+}
+
 TEST(ImageIo, PngAlphaIsNeitherExposedNorEncoded) {
   const TemporaryFolder folder;
   Image image(1, 1, 4);
@@ -163,6 +178,8 @@ TEST(ImageIo, ExtensionDecidesHowAFileIsWritten) {
   EXPECT_EQ(read_exr_metadata(folder / "a.EXR"), options.metadata);
   write_image(folder / "a.png", image);
   EXPECT_TRUE(read_image(folder / "a.png").srgb_encoded);
+  write_image(folder / "a.JPG", image);
+  EXPECT_EQ(read_file(folder / "a.JPG"), jpeg_of(image));
   write_image(folder / "a.hdr", {{"", image}, {"error", image}});
   EXPECT_FALSE(read_image(folder / "a.hdr").srgb_encoded);
   for (const char* name : {"a.tiff", "a", "a.exr.bak", ".exr"}) {
@@ -170,16 +187,16 @@ TEST(ImageIo, ExtensionDecidesHowAFileIsWritten) {
       write_image(folder / name, image);
       FAIL() << name;
     } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find(".exr, .png, .hdr"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(".exr, .png, .jpg, .jpeg, .hdr"), std::string::npos);
     }
   }
-  EXPECT_EQ(files_in(folder.path()), 3u);
+  EXPECT_EQ(files_in(folder.path()), 4u);
 }
 
 TEST(ImageIo, EqualRendersAreEqualFiles) {
   const TemporaryFolder folder;
   const Image image = random_image(64, 64, 3);
-  for (const std::string extension : {".exr", ".png", ".hdr"}) {
+  for (const std::string extension : {".exr", ".png", ".jpg", ".hdr"}) {
     write_image(folder / ("a" + extension), image);
     write_image(folder / ("b" + extension), image);
     EXPECT_EQ(read_file(folder / ("a" + extension)), read_file(folder / ("b" + extension)));
@@ -190,9 +207,12 @@ TEST(ImageIo, AnImageThatDoesNotFitIsRefused) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_png(folder / "a.png", Image(2, 2, 5)), UsageError);
   EXPECT_THROW(write_hdr(folder / "a.hdr", Image()), UsageError);
+  EXPECT_THROW(write_jpeg(folder / "a.jpg", Image(2, 2, 4)), UsageError);
+  EXPECT_THROW(write_jpeg(folder / "a.jpg", Image(65501, 1, 1)), UsageError);
   Image lying(4, 4, 3);
   lying.width = 400;
   EXPECT_THROW(write_png(folder / "a.png", lying), UsageError);
+  EXPECT_THROW(write_jpeg(folder / "a.jpg", lying), UsageError);
   EXPECT_THROW(write_exr(folder / "a.exr", lying), UsageError);
   EXPECT_THROW(write_image(folder / "a.exr", std::vector<ExrLayer>{}), UsageError);
   EXPECT_EQ(files_in(folder.path()), 0u);

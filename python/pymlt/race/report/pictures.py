@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ... import _core
 from ...diagnostics.metrics import flip_map, relative_error
-from ...pictures.jpeg import encode_jpeg
 from ...pictures.notebook import png
 from ...pictures.tonemapping import tonemap
 
@@ -57,7 +57,7 @@ def smaller(image: np.ndarray) -> np.ndarray:
 
 def photograph(image: np.ndarray, curve: str, exposure: float) -> str:
     """A linear image as the address of a JPEG that it contains."""
-    return _address(encode_jpeg(smaller(image), curve, exposure), "jpeg")
+    return _address(_core.encode_jpeg(tonemap(smaller(image), curve, exposure=exposure)), "jpeg")
 
 
 def exact(image: np.ndarray, curve: str, exposure: float) -> str:
@@ -69,7 +69,7 @@ def drawing(values: np.ndarray) -> str:
     """A map from 0 to 1 as the address of a JPEG that it contains."""
     encoded = coloured(smaller(values[..., None])[..., 0])
     linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-    return _address(encode_jpeg(linear, "srgb", 0), "jpeg")
+    return _address(_core.encode_jpeg(linear), "jpeg")
 
 
 def _address(content: bytes, kind: str) -> str:
