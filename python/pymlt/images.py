@@ -125,13 +125,13 @@ def write_image(
     half: bool = False,
     metadata: dict[str, str] | None = None,
 ) -> None:
-    """Write linear pixels to .exr, .hdr, or a picture to look at: .png, .jpg.
+    """Write linear pixels to .exr, .hdr, or a picture to look at: .png, .jpg, .tif.
 
     image
         floats of shape (height, width) or (height, width, channels), with at most 4 channels; 1 is
         white. A second or fourth channel is alpha: in .exr colours are multiplied by it, in .png
-        they are not, and pixels are written as they are given. What is not a number becomes 0, with
-        a warning, in all files but .exr.
+        and .tif they are not, and pixels are written as they are given. What is not a number
+        becomes 0, with a warning, in all files but .exr.
     exposure, tonemap
         for pictures, which are sRGB-encoded: stops by which they are brightened ("auto": as suits
         the image), and the curve, as `pymlt.tonemap` has them.

@@ -124,8 +124,48 @@ def test_grey_is_written_as_jpeg_and_alpha_is_refused(tmp_path):
     assert not (tmp_path / "b.jpg").exists()
 
 
+@pytest.mark.parametrize("channels", [1, 2, 3, 4])
+@pytest.mark.parametrize("extension", ["tif", "TIFF"])
+def test_tiff_has_sixteen_bits_and_alpha(channels, extension, tmp_path):
+    image = np.random.default_rng(1).random((6, 8, channels)).astype(np.float32)
+    path = tmp_path / f"a.{extension}"
+    mlt.write_image(path, image, exposure=-1)
+    expected = image * [0.5, 0.5, 0.5, 1][:channels]
+    if channels in (2, 4):
+        expected[..., -1] = image[..., -1]
+    np.testing.assert_allclose(read_tiff(path), expected, atol=2e-5)
+
+
+def read_tiff(path) -> np.ndarray:
+    """Linear light, and alpha, by which colours are not multiplied."""
+    oiio = pytest.importorskip("OpenImageIO")
+    hints = oiio.ImageSpec()
+    hints.attribute("oiio:UnassociatedAlpha", 1)
+    file = oiio.ImageInput.open(str(path), hints)
+    assert str(file.spec().format) == "uint16"
+    stored = file.read_image("float").astype(float)
+    linear = np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
+    if linear.shape[2] in (2, 4):
+        linear[..., -1] = stored[..., -1]
+    return linear
+
+
+@pytest.mark.parametrize("curve", CURVES)
+def test_tiff_shows_what_png_does(curve, tmp_path, result):
+    result.write(tmp_path / "a.png", 1, tonemap=curve)
+    result.write(tmp_path / "a.tif", 1, tonemap=curve)
+    shown = [mlt.read_image(tmp_path / name) for name in ("a.png", "a.tif")]
+    np.testing.assert_allclose(*shown, atol=0.005)
+    assert (
+        Path(result.save(tmp_path / "b.tif", 1, tonemap=curve)).read_bytes()
+        == (tmp_path / "a.tif").read_bytes()
+    )
+
+
 def test_other_extensions_are_refused(tmp_path):
-    with pytest.raises(mlt.UsageError, match=r"valid are: .exr, .png, .jpg, .jpeg, .hdr"):
+    with pytest.raises(
+        mlt.UsageError, match=r"valid are: .exr, .png, .jpg, .jpeg, .tif, .tiff, .hdr"
+    ):
         mlt.write_image(tmp_path / "a.gif", np.zeros((2, 2, 3)))
 
 

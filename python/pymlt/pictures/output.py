@@ -7,13 +7,14 @@ import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
+from . import tiff
 from .techniques import technique_figure, techniques_of
 from .tonemapping import Exposure, check_tonemap, stops_of, straight, tonemap
 
 if TYPE_CHECKING:
     import numpy as np
 
-PICTURES = (".png", ".jpg", ".jpeg")
+PICTURES = (".png", ".jpg", ".jpeg", *tiff.EXTENSIONS)
 EXTENSIONS = (".exr", *PICTURES, ".hdr")
 
 
@@ -30,7 +31,10 @@ class OutputFile(NamedTuple):
 
     def write(self) -> None:
         """Raises FileError if it cannot be written, UsageError for what the format cannot hold."""
-        _core.write_image(*self._arguments())
+        if self._is_tiff():
+            _core.replace_file(self.path, self._tiff())
+        else:
+            _core.write_image(*self._arguments())
         self._draw_techniques(self.path)
 
     def save(self) -> tuple[str, str]:
@@ -38,12 +42,21 @@ class OutputFile(NamedTuple):
 
         Returns where the file is, or ""; and why it is not at `path`, or "".
         """
+        if self._is_tiff():
+            return _core.save_text(self.path, self._tiff())
         where, problem = _core.save_image(*self._arguments())
         try:
             self._draw_techniques(where)
         except _core.Error as error:
             return where, "; ".join(filter(None, [problem, str(error)]))
         return where, problem
+
+    def _is_tiff(self) -> bool:
+        return self.path.lower().endswith(tiff.EXTENSIONS)
+
+    def _tiff(self) -> bytes:
+        shown = tonemap(self.image, self.curve, exposure=self.exposure)
+        return tiff.encode_tiff(shown)
 
     def _draw_techniques(self, path: str) -> None:
         """Beside NAME.png writes NAME.techniques.png, if there are techniques among the layers."""
