@@ -60,8 +60,8 @@ void write_jpeg(const std::string& path, const Image& image, double exposure = 0
 
 void write_hdr(const std::string& path, const Image& image);
 
-/// Writes by extension: .exr, .png, .jpg, .jpeg or .hdr, else a UsageError that lists them. Only EXR
-/// holds more than the first layer.
+/// Writes by extension: .exr, .png, .jpg, .jpeg or .hdr, else a UsageError that lists them. Only
+/// EXR holds more than the first layer.
 void write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
 void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
                  const WriteOptions& options = {});
