@@ -35,7 +35,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup lock editor build quick demo docs test test-long mutants asan separate fuzz soak differential wheel blender release-check \
+.PHONY: setup lock editor build quick demo docs test test-long mutants asan separate fuzz soak differential wheel blender release-check publish \
         lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -188,6 +188,10 @@ blender: $(STAMPS)/dev
 # Where debootstrap runs (as root), in fresh systems; else in fresh virtual environments.
 release-check: build
 	$(BIN)/python release/check.py
+
+# To the index that twine is told of, by default that of Python; it asks for a token.
+publish: release-check
+	build/wheels/tools/bin/twine upload dist/*.whl dist/*.tar.gz
 
 # ---- style ---------------------------------------------------------------------------------------
 lint: $(STAMPS)/dev

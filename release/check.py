@@ -186,6 +186,7 @@ def main() -> None:
     files = sorted(DIST.glob("*.whl"))
     assert files, "make wheel first"
     (source,) = DIST.glob("*.tar.gz")
+    run("sh", "-c", 'cd "$0" && sha256sum --strict -c SHA256SUMS', DIST)
     twine = tools(sys.executable, BUILD / "tools", "release")
     run(twine / "twine", "check", "--strict", *files, source)
     check_source(source)

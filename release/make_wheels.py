@@ -3,9 +3,10 @@
     python release/make_wheels.py python3.11 python3.12
 
 `make wheel` calls it. A wheel brings every library that is linked but those of the manylinux
-policy, with their licences.
+policy, with their licences. SHA256SUMS has the hashes of all files.
 """
 
+import hashlib
 import os
 import re
 import shutil
@@ -123,12 +124,20 @@ def print_sizes(wheel: Path) -> None:
         print(f"  {packed / 1e6:6.2f} MB packed {installed / 1e6:6.2f} MB installed  {part}")
 
 
+def write_sums() -> None:
+    """dist/SHA256SUMS, as `sha256sum -c` reads it."""
+    files = sorted([*DIST.glob("*.whl"), *DIST.glob("*.tar.gz")])
+    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n" for path in files]
+    (DIST / "SHA256SUMS").write_text("".join(lines))
+
+
 def main(pythons: list[str]) -> None:
     shutil.rmtree(DIST, ignore_errors=True)
     bin_folder = tools(sys.executable, BUILD / "tools", "release")
     run(bin_folder / "python", "-m", "build", "--sdist", "--no-isolation", "-o", DIST, ROOT)
     for python in pythons:
         make_wheel(python, bin_folder)
+    write_sums()
     for wheel in sorted(DIST.glob("*.whl")):
         print_sizes(wheel)
 

@@ -55,6 +55,17 @@ def test_a_wheel_in_which_something_is_missing_does_not_pass(check, tmp_path, mi
         check.check_files(wheel_of(check, tmp_path, leave_out=[missing]))
 
 
+def test_the_hashes_are_those_of_all_files(check, tmp_path, monkeypatch):
+    make_wheels = sys.modules["make_wheels"]
+    monkeypatch.setattr(make_wheels, "DIST", tmp_path)
+    for name in ("b.whl", "a.tar.gz", "c.txt"):
+        (tmp_path / name).write_text(name)
+    make_wheels.write_sums()
+    command = ["sha256sum", "--strict", "-c", "SHA256SUMS"]
+    said = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert said.stdout.splitlines() == ["a.tar.gz: OK", "b.whl: OK"]
+
+
 def test_a_wheel_names_no_folder_of_the_machine_that_made_it(check, tmp_path):
     path = wheel_of(check, tmp_path)
     with zipfile.ZipFile(path, "a") as file:
