@@ -1,6 +1,6 @@
 """Injects bugs, one at a time, and asks whether the tests find them.
 
-    make mutants                                       all of them, in half an hour
+    make mutants                                       all of them, in some hours
     make mutants SHARD=2/4                             the second of four parts
     make mutants MUTANTS="phong_pdf projector_time"    these alone
 
