@@ -81,8 +81,10 @@ def test_the_readme_is_a_screen_and_a_half():
 
 
 def test_each_page_is_in_the_navigation():
-    pages = {path.stem for path in ROOT.glob("docs/*.md")} - {"index"}
-    assert pages <= set((ROOT / "docs" / "index.md").read_text().splitlines())
+    docs = ROOT / "docs"
+    pages = {str(page.relative_to(docs).with_suffix("")) for page in docs.rglob("*.md")}
+    written = {page for page in pages if not page.startswith("auto_")} - {"index"}
+    assert written <= set((docs / "index.md").read_text().splitlines())
 
 
 def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
