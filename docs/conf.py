@@ -20,6 +20,7 @@ version = release = pymlt.__version__
 
 extensions = [
     "myst_parser",
+    "sphinx_copybutton",
     "sphinx_design",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
@@ -35,6 +36,10 @@ suppress_warnings = ["config.cache", "myst.xref_missing"]
 html_theme = "furo"
 html_title = f"pymlt {version}"
 html_copy_source = False
+html_logo = html_favicon = "images/logo.svg"
+html_static_path = ["style"]
+html_css_files = ["pages.css"]
+highlight_language = "none"  # Blocks that name no language are commands, mostly.
 
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
