@@ -87,6 +87,16 @@ def test_each_page_is_in_the_navigation():
     assert written <= set((docs / "index.md").read_text().splitlines())
 
 
+def test_each_name_of_the_package_is_on_one_page_of_the_reference():
+    topics = script("conf.py").TOPICS
+    shown = [name for _, names, _ in topics.values() for name in names.split()]
+    assert len(shown) == len(set(shown))
+    modules = {name.split(".")[0] for _, _, modules in topics.values() for name in modules}
+    assert set(mlt.__all__) <= {*shown, *modules, "__version__"}
+    navigation = (ROOT / "docs" / "index.md").read_text().splitlines()
+    assert {f"auto_api/{topic}" for topic in topics} <= set(navigation)
+
+
 def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
     """And its last lines say what to type next."""
     places = [f"STAMPS={tmp_path}/stamps", f"VENV={tmp_path}/venv", f"BIN={tmp_path}/venv/bin"]
