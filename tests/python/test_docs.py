@@ -60,22 +60,6 @@ def test_the_instructions_of_the_benchmarks_are_those_that_are_guarded():
     assert said == {name: instructions for name, (_, _, instructions) in CASES.items()}
 
 
-def test_the_figures_of_the_first_pages_are_those_of_the_comparison():
-    table = (ROOT / "docs" / "comparison.md").read_text().split("\n## ")[0]
-    means = dict(re.findall(r"^\| (\w+)[^|]*\|.*\| \**([\d.]+)\** \|$", table, re.MULTILINE))
-    next_best = min(set(means) - {"mlt"}, key=lambda name: float(means[name]))
-    readme, features = (
-        " ".join((ROOT / page).read_text().split()) for page in ("README.md", "docs/features.md")
-    )
-    assert f"error is {means['mlt']} times" in readme
-    for figure in (
-        f"error is {means['mlt']} times",
-        f"`bdpt` has {means['bdpt']} times",
-        f"(`{next_best}`) {means[next_best]} times",
-    ):
-        assert figure in features, figure
-
-
 def test_the_readme_is_a_screen_and_a_half():
     assert len((ROOT / "README.md").read_text().splitlines()) <= 75
 
