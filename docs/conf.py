@@ -52,11 +52,17 @@ python_maximum_signature_line_length = 80
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 
+
+def place_in_the_lecture(script: str) -> int:
+    """Where docs/lecture.md names a script of the gallery last."""
+    return (HERE / "lecture.md").read_text().rindex(f"`pymlt lab {Path(script).stem}`")
+
+
 sphinx_gallery_conf = {
     "examples_dirs": ["gallery"],
     "gallery_dirs": ["auto_gallery"],
     "filename_pattern": r"\.py",
-    "within_subsection_order": "ExampleTitleSortKey",
+    "within_subsection_order": place_in_the_lecture,
     "copyfile_regex": r"^$",
     "download_all_examples": False,
     "remove_config_comments": True,

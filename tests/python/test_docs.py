@@ -131,6 +131,18 @@ def test_each_topic_of_the_lecture_has_its_figure_and_slider():
         assert topic in said, topic
 
 
+def test_scripts_of_the_gallery_stand_in_the_order_of_the_lecture():
+    place = script("conf.py").place_in_the_lecture
+    scripts = sorted((path.name for path in ROOT.glob("docs/gallery/*.py")), key=place)
+    assert (scripts[0], scripts[-1]) == ("quadrature.py", "ergodicity.py")
+
+
+def test_the_questions_have_the_words_of_newcomers():
+    """By which the site's search finds them."""
+    said = set(re.findall(r"\w+", (ROOT / "docs" / "questions.md").read_text().lower()))
+    assert {"caustic", "fireflies", "noise", "denoise", "slow", "black", "glass"} <= said
+
+
 def test_the_headings_that_links_name_exist():
     for page in WITH_NOTES:
         for target, heading in re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", page.read_text()):
