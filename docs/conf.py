@@ -124,7 +124,10 @@ def directive(kind: str, name: str, *options: str) -> str:
 
 
 def python_pages() -> None:
-    """One page for each topic of the Python interface."""
+    """One page for each topic of the Python interface, and none that is not a topic any more."""
+    for page in (HERE / "auto_api").glob("*.md"):
+        if page.stem not in TOPICS:
+            page.unlink()
     for topic, (title, names, modules) in TOPICS.items():
         parts = [f"# {title}"]
         for name in names.split():
