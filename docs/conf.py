@@ -5,11 +5,13 @@ interface and of the plug-ins are made from what the package itself says.
 """
 
 import inspect
+import operator
 from importlib import import_module
 from pathlib import Path
 
 import pymlt
-from pymlt import _core
+from pymlt import _core, viewing  # noqa: F401 (an attribute of the package from here on)
+from pymlt.algorithms import integrators, mutations
 
 HERE = Path(__file__).parent
 
@@ -20,6 +22,7 @@ version = release = pymlt.__version__
 
 extensions = [
     "myst_parser",
+    "sphinx_copybutton",
     "sphinx_design",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
@@ -35,29 +38,74 @@ suppress_warnings = ["config.cache", "myst.xref_missing"]
 html_theme = "furo"
 html_title = f"pymlt {version}"
 html_copy_source = False
+html_logo = html_favicon = "images/logo.svg"
+html_static_path = ["style"]
+html_css_files = ["pages.css"]
+highlight_language = "none"  # Blocks that name no language are commands, mostly.
 
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "none"
+autodoc_typehints = "signature"
+python_maximum_signature_line_length = 80
 napoleon_use_rtype = False
 napoleon_use_ivar = True
+
+
+def place_in_the_lecture(script: str) -> int:
+    """Where docs/lecture.md names a script of the gallery last."""
+    return (HERE / "lecture.md").read_text().rindex(f"`pymlt lab {Path(script).stem}`")
+
 
 sphinx_gallery_conf = {
     "examples_dirs": ["gallery"],
     "gallery_dirs": ["auto_gallery"],
     "filename_pattern": r"\.py",
-    "within_subsection_order": "ExampleTitleSortKey",
+    "within_subsection_order": place_in_the_lecture,
     "copyfile_regex": r"^$",
     "download_all_examples": False,
     "remove_config_comments": True,
     "show_memory": False,
+    "write_computation_times": False,
     "abort_on_example_error": True,
     "plot_gallery": True,
 }
 
-MODULES = ("cryptomatte", "lab.metropolis", "lab.quadrature", "race")
+# Pages of the Python interface: the title, what of the package they show, and which modules.
+TOPICS = {
+    "scenes": (
+        "Scenes",
+        "load load_file load_dict load_string convert traverse Scene SceneParameters Transform",
+        ["scenes"],
+    ),
+    "rendering": (
+        "Rendering",
+        "render start resume render_progressive render_bands replay Job Replay",
+        ["rendering.cluster"],
+    ),
+    "results": ("Results", "Result Groups Technique compare comparison_figure merge", []),
+    "images": (
+        "Images and their files",
+        "read_image write_image read_metadata tonemap denoise",
+        ["cryptomatte"],
+    ),
+    "algorithms": (
+        "Algorithms",
+        " ".join(["available describe Integrator", *integrators.__all__]),
+        [],
+    ),
+    "mutations": (
+        "Mutations and audits",
+        " ".join(["audit Audit convergence Convergence Mutation", *mutations.__all__])
+        + " LightPath Vertex",
+        [],
+    ),
+    "lab": ("Sampling and quadrature", "", ["lab.metropolis", "lab.quadrature"]),
+    "races": ("Races of algorithms", "equal_time Program Race RaceResult", ["race"]),
+    "viewing": ("The page that shows a scene", "view viewing.start.View", []),
+    "errors": ("Errors", "Error SceneError UsageError FileError RenderError", []),
+}
 
 
 def write(path: Path, text: str) -> None:
@@ -76,21 +124,28 @@ def directive(kind: str, name: str, *options: str) -> str:
 
 
 def python_pages() -> None:
-    """One page for the package, one for each module of the lab, one for races."""
-    functions, classes = [], []
-    for name in pymlt.__all__:
-        value = getattr(pymlt, name)
-        if inspect.isclass(value):
-            classes.append(directive("autoclass", f"pymlt.{name}", "members"))
-        elif callable(value):
-            functions.append(directive("autofunction", f"pymlt.{name}"))
-    sections = ["# The package", "## Functions", *functions, "## Classes", *classes]
-    write(HERE / "auto_api" / "pymlt.md", "\n\n".join(sections))
-    for module in MODULES:
-        shown = sorted(set(import_module(f"pymlt.{module}").__all__) & set(pymlt.__all__))
-        options = ["members", "imported-members", f"exclude-members: {', '.join(shown)}"]
-        text = f"# pymlt.{module}\n\n" + directive("automodule", f"pymlt.{module}", *options)
-        write(HERE / "auto_api" / f"{module}.md", text)
+    """One page for each topic of the Python interface, and none that is not a topic any more."""
+    for page in (HERE / "auto_api").glob("*.md"):
+        if page.stem not in TOPICS:
+            page.unlink()
+    for topic, (title, names, modules) in TOPICS.items():
+        parts = [f"# {title}"]
+        for name in names.split():
+            shown = operator.attrgetter(name)(pymlt)
+            options = ["autoclass", "members"] if inspect.isclass(shown) else ["autofunction"]
+            parts.append(directive(options[0], f"pymlt.{name}", *options[1:]))
+        parts += map(module_part, modules)
+        write(HERE / "auto_api" / f"{topic}.md", "\n\n".join(parts))
+
+
+def module_part(name: str) -> str:
+    """All of a module but what the package has too."""
+    module = import_module(f"pymlt.{name}")
+    options = ["members"]
+    if hasattr(module, "__all__"):
+        elsewhere = sorted(set(module.__all__) & set(pymlt.__all__))
+        options += ["imported-members", f"exclude-members: {', '.join(elsewhere)}"]
+    return f"## pymlt.{name}\n\n" + directive("automodule", f"pymlt.{name}", *options)
 
 
 def plugin_pages() -> None:

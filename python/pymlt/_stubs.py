@@ -13,7 +13,7 @@ from pathlib import Path
 from . import _core
 from .algorithms.integrators import class_name, integrator_schema
 from .algorithms.mutations import mutation_class_name, mutation_schemas
-from .algorithms.schemas import documentation
+from .algorithms.schemas import documentation, type_of
 from .rendering import start
 
 HEAD = "# Made by `python -m pymlt._stubs`. Do not edit.\n"
@@ -48,6 +48,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike, SensorLike
@@ -57,21 +58,10 @@ from .result import Replay, Result
 
 """
 
-TYPES = {"boolean": "bool", "integer": "int", "float": "float", "string": "str"}
-SEQUENCES = {
-    "point or vector": "tuple[float, float, float] | list[float] | np.ndarray",
-    "transform": "np.ndarray | list[list[float]]",
-    "transform or animation": "np.ndarray | list[list[float]] | dict",
-    "list of mutations": "Sequence[Mutation | tuple[Mutation, float]]",
-}
 
-
-def type_of(parameter: dict) -> str:
-    """The annotation of a parameter: a scalar type, or anything for colours and objects."""
-    kind = TYPES.get(parameter["type"]) or SEQUENCES.get(parameter["type"], "Any")
-    if parameter["choices"]:
-        kind = f"Literal[{', '.join(map(json.dumps, parameter['choices']))}]"
-    return f"{kind} | None" if parameter["default"] is None and kind != "Any" else kind
+def written(default) -> str:
+    """A default value as the formatter writes it."""
+    return json.dumps(default) if isinstance(default, str) else repr(default)
 
 
 def class_stub(name: str, base: str, schema: dict) -> str:
@@ -83,7 +73,10 @@ def class_stub(name: str, base: str, schema: dict) -> str:
     end = '\n    """' if "\n" in doc else '"""'
     lines = [f"class {name}({base}):", f'    """{doc}{end}', ""]
     lines += [f"    {p['name']}: {type_of(p)}" for p in schema["parameters"]]
-    arguments = [f"        {p['name']}: {type_of(p)} = ...," for p in schema["parameters"]]
+    arguments = [
+        f"        {p['name']}: {type_of(p)} = {written(p['default'])},"
+        for p in schema["parameters"]
+    ]
     head = ["        *,", *arguments] if arguments else []
     lines += ["    def __init__(", "        self,", *head, "    ) -> None: ..."]
     return "\n".join(line.rstrip() for line in lines) + "\n"
@@ -115,7 +108,9 @@ def function_stub(function) -> str:
         if p.kind is p.KEYWORD_ONLY and "*" not in lines:
             lines.append("*")
         name = f"**{p.name}" if p.kind is p.VAR_KEYWORD else p.name
-        lines.append(f"{name}: {p.annotation}" + ("" if p.default is p.empty else " = ..."))
+        lines.append(
+            f"{name}: {p.annotation}" + ("" if p.default is p.empty else f" = {written(p.default)}")
+        )
     arguments = "".join(f"    {line},\n" for line in lines)
     return f"def {function.__name__}(\n{arguments}) -> {signature.return_annotation}: ...\n"
 

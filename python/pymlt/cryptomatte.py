@@ -17,6 +17,7 @@ from .images import layer_names, read_image, read_metadata
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = ["matte", "names"]
 
@@ -24,7 +25,7 @@ __all__ = ["matte", "names"]
 class Rendered(Protocol):
     """A `Result`, or whatever has layers and says in its metadata what they are."""
 
-    layers: dict[str, np.ndarray]
+    layers: dict[str, NDArray[np.float32]]
     metadata: dict[str, str]
 
 
@@ -45,7 +46,7 @@ def names(source: Source, layer: str = "") -> list[str]:
     return sorted({name for manifest in manifests.values() for name in manifest})
 
 
-def matte(source: Source, name: str, layer: str = "") -> np.ndarray:
+def matte(source: Source, name: str, layer: str = "") -> NDArray[np.float32]:
     """How much of each pixel the object or material of this name covers.
 
     source, layer

@@ -12,10 +12,10 @@ from .pictures.tonemapping import Exposure, split_alpha
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 
-def read_image(path: str | os.PathLike[str], layer: str = "") -> np.ndarray:
+def read_image(path: str | os.PathLike[str], layer: str = "") -> NDArray[np.float32]:
     """Read an image as float32 of shape (height, width, channels), in linear light.
 
     EXR, PNG, JPEG, HDR, TGA and BMP are read natively, whatever the file is called, anything else

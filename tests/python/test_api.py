@@ -39,6 +39,18 @@ def test_the_stubs_are_current():
         assert written == make(), "run `python -m pymlt._stubs`"
 
 
+def test_functions_and_classes_of_parameters_tell_their_types():
+    functions = [v for v in map(vars(mlt).get, mlt.__all__) if inspect.isfunction(v)]
+    made = [*mlt.Integrator.__subclasses__(), *mlt._mutations.built_in]
+    assert mlt.render in functions
+    for shown in functions + made:
+        signature = inspect.signature(shown)
+        untyped = [p for p in signature.parameters.values() if p.annotation is p.empty]
+        assert not untyped, shown
+        assert signature.return_annotation != "np.ndarray", f"{shown}: of which numbers?"
+    assert "float32" in inspect.signature(mlt.render).return_annotation
+
+
 # ---- integrators -------------------------------------------------------------------------------
 
 CLASSES = sorted(mlt.Integrator.__subclasses__(), key=lambda c: c.__name__)

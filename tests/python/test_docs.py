@@ -60,29 +60,25 @@ def test_the_instructions_of_the_benchmarks_are_those_that_are_guarded():
     assert said == {name: instructions for name, (_, _, instructions) in CASES.items()}
 
 
-def test_the_figures_of_the_first_pages_are_those_of_the_comparison():
-    table = (ROOT / "docs" / "comparison.md").read_text().split("\n## ")[0]
-    means = dict(re.findall(r"^\| (\w+)[^|]*\|.*\| \**([\d.]+)\** \|$", table, re.MULTILINE))
-    next_best = min(set(means) - {"mlt"}, key=lambda name: float(means[name]))
-    readme, features = (
-        " ".join((ROOT / page).read_text().split()) for page in ("README.md", "docs/features.md")
-    )
-    assert f"error is {means['mlt']} times" in readme
-    for figure in (
-        f"error is {means['mlt']} times",
-        f"`bdpt` has {means['bdpt']} times",
-        f"(`{next_best}`) {means[next_best]} times",
-    ):
-        assert figure in features, figure
-
-
 def test_the_readme_is_a_screen_and_a_half():
     assert len((ROOT / "README.md").read_text().splitlines()) <= 75
 
 
 def test_each_page_is_in_the_navigation():
-    pages = {path.stem for path in ROOT.glob("docs/*.md")} - {"index"}
-    assert pages <= set((ROOT / "docs" / "index.md").read_text().splitlines())
+    docs = ROOT / "docs"
+    pages = {str(page.relative_to(docs).with_suffix("")) for page in docs.rglob("*.md")}
+    written = {page for page in pages if not page.startswith("auto_")} - {"index"}
+    assert written <= set((docs / "index.md").read_text().splitlines())
+
+
+def test_each_name_of_the_package_is_on_one_page_of_the_reference():
+    topics = script("conf.py").TOPICS
+    shown = [name for _, names, _ in topics.values() for name in names.split()]
+    assert len(shown) == len(set(shown))
+    modules = {name.split(".")[0] for _, _, modules in topics.values() for name in modules}
+    assert set(mlt.__all__) <= {*shown, *modules, "__version__"}
+    navigation = (ROOT / "docs" / "index.md").read_text().splitlines()
+    assert {f"auto_api/{topic}" for topic in topics} <= set(navigation)
 
 
 def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
@@ -133,6 +129,18 @@ def test_each_topic_of_the_lecture_has_its_figure_and_slider():
     said = page.lower()
     for topic in TOPICS:
         assert topic in said, topic
+
+
+def test_scripts_of_the_gallery_stand_in_the_order_of_the_lecture():
+    place = script("conf.py").place_in_the_lecture
+    scripts = sorted((path.name for path in ROOT.glob("docs/gallery/*.py")), key=place)
+    assert (scripts[0], scripts[-1]) == ("quadrature.py", "ergodicity.py")
+
+
+def test_the_questions_have_the_words_of_newcomers():
+    """By which the site's search finds them."""
+    said = set(re.findall(r"\w+", (ROOT / "docs" / "questions.md").read_text().lower()))
+    assert {"caustic", "fireflies", "noise", "denoise", "slow", "black", "glass"} <= said
 
 
 def test_the_headings_that_links_name_exist():

@@ -33,8 +33,8 @@ class Lens(BuiltIn):
     def __init__(
         self,
         *,
-        smallest_pixels: float = ...,
-        largest_share: float = ...,
+        smallest_pixels: float = 0.1,
+        largest_share: float = 0.1,
     ) -> None: ...
 
 class Caustic(BuiltIn):
@@ -56,9 +56,9 @@ class Caustic(BuiltIn):
     def __init__(
         self,
         *,
-        smallest_pixels: float = ...,
-        largest_share: float = ...,
-        anisotropic: bool = ...,
+        smallest_pixels: float = 0.1,
+        largest_share: float = 0.1,
+        anisotropic: bool = True,
     ) -> None: ...
 
 class MultiChain(BuiltIn):
@@ -78,8 +78,8 @@ class MultiChain(BuiltIn):
     def __init__(
         self,
         *,
-        smallest_pixels: float = ...,
-        largest_share: float = ...,
+        smallest_pixels: float = 0.1,
+        largest_share: float = 0.1,
     ) -> None: ...
 
 class LensSubpath(BuiltIn):
@@ -103,7 +103,7 @@ class Multiplexed(BuiltIn):
     def __init__(
         self,
         *,
-        step_size: float = ...,
+        step_size: float = 0.015625,
     ) -> None: ...
 
 class Manifold(BuiltIn):
@@ -123,8 +123,8 @@ class Manifold(BuiltIn):
     def __init__(
         self,
         *,
-        smallest_pixels: float = ...,
-        largest_share: float = ...,
+        smallest_pixels: float = 0.1,
+        largest_share: float = 0.1,
     ) -> None: ...
 
 class Propagation(BuiltIn):
@@ -143,8 +143,8 @@ class Propagation(BuiltIn):
     def __init__(
         self,
         *,
-        smallest_move: float = ...,
-        largest_move: float = ...,
+        smallest_move: float = 0.001,
+        largest_move: float = 1.0,
     ) -> None: ...
 
 class Wavelength(BuiltIn):
@@ -164,8 +164,8 @@ class Wavelength(BuiltIn):
     def __init__(
         self,
         *,
-        smallest_step: float = ...,
-        largest_step: float = ...,
+        smallest_step: float = 0.0005,
+        largest_step: float = 0.1,
     ) -> None: ...
 
 __all__ = [

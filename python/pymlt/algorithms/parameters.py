@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 
 from .. import _core
-from .schemas import documentation
+from .schemas import documentation, type_of
 
 
 class WithParameters:
@@ -51,7 +51,10 @@ def make_class(name: str, bases: tuple[type, ...], module: str, schema: dict, **
     defaults = {p["name"]: p["default"] for p in schema["parameters"]}
     keyword = inspect.Parameter.KEYWORD_ONLY
     signature = inspect.Signature(
-        [inspect.Parameter(name, keyword, default=value) for name, value in defaults.items()],
+        [
+            inspect.Parameter(p["name"], keyword, default=p["default"], annotation=type_of(p))
+            for p in schema["parameters"]
+        ],
     )
     own = {
         "__doc__": documentation(schema),

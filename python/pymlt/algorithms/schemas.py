@@ -1,8 +1,25 @@
 """What plug-ins there are, and what their parameters mean."""
 
+import json
 import textwrap
 
 from .. import _core
+
+TYPES = {"boolean": "bool", "integer": "int", "float": "float", "string": "str"}
+SEQUENCES = {
+    "point or vector": "tuple[float, float, float] | list[float] | np.ndarray",
+    "transform": "np.ndarray | list[list[float]]",
+    "transform or animation": "np.ndarray | list[list[float]] | dict",
+    "list of mutations": "Sequence[Mutation | tuple[Mutation, float]]",
+}
+
+
+def type_of(parameter: dict) -> str:
+    """The annotation of a parameter: a scalar type, or anything for colours and objects."""
+    kind = TYPES.get(parameter["type"]) or SEQUENCES.get(parameter["type"], "Any")
+    if parameter["choices"]:
+        kind = f"Literal[{', '.join(map(json.dumps, parameter['choices']))}]"
+    return f"{kind} | None" if parameter["default"] is None and kind != "Any" else kind
 
 
 def available(family: str | None = None) -> dict[str, list[str]] | list[str]:

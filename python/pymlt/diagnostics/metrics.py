@@ -12,9 +12,15 @@ from ..images import read_image
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import ArrayLike
 
 
-def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
+def compare(
+    image: ArrayLike | str | os.PathLike[str],
+    reference: ArrayLike | str | os.PathLike[str],
+    *,
+    flip: bool | None = None,
+) -> dict[str, float]:
     """Errors of an image against a reference; arrays or file names.
 
     With a the image and r the reference, over all pixels and channels:

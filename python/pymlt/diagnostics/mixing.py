@@ -10,10 +10,13 @@ and localization: an improved R-hat for assessing convergence of MCMC", Bayesian
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from .. import _core
+from ..algorithms.integrator import IntegratorLike
+from ..formats.loading import SceneLike
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import start
@@ -48,15 +51,15 @@ class Convergence:
 
 
 def convergence(
-    scene,
-    integrator,
+    scene: SceneLike,
+    integrator: IntegratorLike | None,
     *,
-    spp,
-    draws=32,
-    grid=(12, 16),
-    seed=0,
-    threads=0,
-    progress=None,
+    spp: float,
+    draws: int = 32,
+    grid: tuple[int, int] = (12, 16),
+    seed: int = 0,
+    threads: int = 0,
+    progress: bool | Callable[[float], object] | None = None,
 ) -> Convergence:
     """Render by a Metropolis integrator and tell how its chains have mixed.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 from .. import _core, scenes
 from ..scenes import replaced
@@ -23,7 +24,15 @@ SensorLike = _core.Scene.Part | int | dict
 
 
 def load(
-    path, /, *, size=None, lenient=None, sensor=None, filter=None, spectral=False, **defines
+    path: str | os.PathLike[str],
+    /,
+    *,
+    size: tuple[int, int] | None = None,
+    lenient: bool | None = None,
+    sensor: int | None = None,
+    filter: str | None = None,
+    spectral: bool = False,
+    **defines: Any,
 ) -> _core.Scene:
     """Load a scene from a file of any known format, which its extension tells, or by its name.
 

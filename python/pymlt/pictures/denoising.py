@@ -10,7 +10,7 @@ from .tonemapping import split_alpha
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 # Layers that guide the filter, by the names under which renderers write them.
 GUIDES = {"albedo": ("albedo",), "normal": ("normal", "sh_normal")}
@@ -22,7 +22,7 @@ def denoise(
     albedo: ArrayLike | None = None,
     normal: ArrayLike | None = None,
     clean_guides: bool = False,
-) -> np.ndarray:
+) -> NDArray[np.float32]:
     """An image without most of its noise, as a neural network guesses it.
 
     The result is biased: it looks better, and is no estimate of the light any more. Not for

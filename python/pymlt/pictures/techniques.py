@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     import numpy as np
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
 CELL = 1.1  #: inches
 TITLES = {"raw": "what each technique finds alone", "weighted": "weighted: the sum is the render"}
@@ -19,11 +20,11 @@ TITLES = {"raw": "what each technique finds alone", "weighted": "weighted: the s
 class Technique(NamedTuple):
     """The image of one technique (s, t) of bidirectional path tracing."""
 
-    raw: np.ndarray  #: what it finds alone, without weights
-    weighted: np.ndarray  #: what it brings to the render
+    raw: NDArray[np.float32]  #: what it finds alone, without weights
+    weighted: NDArray[np.float32]  #: what it brings to the render
 
 
-def techniques_of(layers: dict[str, np.ndarray]) -> dict[tuple[int, int], Technique]:
+def techniques_of(layers: dict[str, NDArray[np.float32]]) -> dict[tuple[int, int], Technique]:
     """Those among the layers of a render, by (s, t)."""
     found = {}
     for name, weighted in layers.items():

@@ -9,13 +9,15 @@ from .. import _core
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 MAX_EXPOSURE = 128  #: stops, as for PNG files in C++
 Exposure: TypeAlias = float | Literal["auto"]
 
 
-def tonemap(image: ArrayLike, curve: str = "filmic", *, exposure: Exposure = 0) -> np.ndarray:
+def tonemap(
+    image: ArrayLike, curve: str = "filmic", *, exposure: Exposure = 0
+) -> NDArray[np.float32]:
     """The light of a display that shows an image: linear, each sample from 0 to 1.
 
     image

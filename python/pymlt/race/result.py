@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .cpu_time import processor
 from .insets import Inset
@@ -43,7 +44,7 @@ class Entry:
         return self.scores[-1] if self.scores else None
 
     @property
-    def image(self) -> np.ndarray:
+    def image(self) -> NDArray[np.float32]:
         """Of the run with the median error: float32, (height, width, 3), linear."""
         return self.runs[self.shown].image
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import _core
 
@@ -16,7 +17,7 @@ class Snapshot:
     """An image, and the CPU time that it took."""
 
     seconds: float  #: of CPU time, all threads together
-    image: np.ndarray = field(repr=False)  #: float32, (height, width, 3), linear
+    image: NDArray[np.float32] = field(repr=False)  #: float32, (height, width, 3), linear
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Run:
     invalid: int = 0  #: samples of the last image that were no numbers, and count as 0
 
     @property
-    def image(self) -> np.ndarray:
+    def image(self) -> NDArray[np.float32]:
         """The last image: float32, (height, width, 3), linear."""
         return self._last.image
 

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import weakref
+from collections.abc import Callable
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,7 @@ from .stats import Stats
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import NDArray
 
 _running: weakref.WeakSet[Job] = weakref.WeakSet()
 
@@ -56,7 +58,7 @@ class Job:
         return self
 
     @property
-    def image(self) -> np.ndarray:
+    def image(self) -> NDArray[np.float32]:
         """The image so far: float32, (height, width, 3), linear, row 0 on top."""
         return self._job.image_without_fireflies() if self._filters else self._job.image()
 
@@ -84,11 +86,11 @@ class Job:
         return self._job.relative_error()
 
     @property
-    def error_map(self) -> np.ndarray | None:
+    def error_map(self) -> NDArray[np.float32] | None:
         """The standard error of each pixel so far; see `Result.error_map`."""
         return self._job.layers().get("error")
 
-    def checkpoint(self, path, *, overwrite: bool = False) -> None:
+    def checkpoint(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Save the state of the render, now, to a file that `resume` goes on from.
 
         The units in flight are finished, and the render goes on. Raises FileError if the file
@@ -97,7 +99,13 @@ class Job:
         """
         self._job.checkpoint(os.fspath(path), overwrite)
 
-    def extend(self, *, spp=None, time=None, error=None) -> None:
+    def extend(
+        self,
+        *,
+        spp: float | None = None,
+        time: float | None = None,
+        error: float | None = None,
+    ) -> None:
         """After the end: go on to a larger budget, counted from the very beginning.
 
         The image is the same as if the render had had this budget from the start. Raises UsageError
@@ -145,7 +153,12 @@ class Job:
         self._job.cancel()
 
     def wait(
-        self, timeout: float | None = None, progress=False, *, callback=None, interval: float = 1
+        self,
+        timeout: float | None = None,
+        progress: bool | Callable[[float], object] | None = False,
+        *,
+        callback: Callable[[Result], object] | None = None,
+        interval: float = 1,
     ) -> bool:
         """Wait for the end, at most `timeout` seconds; True if the render has ended.
 

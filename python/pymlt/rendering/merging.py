@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
@@ -21,7 +22,7 @@ BLOCK = 8  #: side in pixels of the blocks of the layer "error_block"
 ERRORS = ("error", "error_block")
 
 
-def merge(renders, *, force: bool = False) -> Result:
+def merge(renders: Iterable[str | os.PathLike[str] | Result], *, force: bool = False) -> Result:
     """The mean of several renders of one scene, each weighted with its samples.
 
     With N_i the samples per pixel of render i and I_i its image (for Metropolis integrators b_i
@@ -42,35 +43,35 @@ def merge(renders, *, force: bool = False) -> Result:
     """
     import numpy as np
 
-    renders = [_render(render) for render in renders]
-    if not renders:
+    parts = [_render(render) for render in renders]
+    if not parts:
         raise _core.UsageError("there is nothing to merge")
-    _check(renders, force)
-    total = sum(render.spp for render in renders)
-    weights = [render.spp / total for render in renders]
-    names = set.intersection(*(set(render.layers) for render in renders))
-    first = renders[0]
+    _check(parts, force)
+    total = sum(part.spp for part in parts)
+    weights = [part.spp / total for part in parts]
+    names = set.intersection(*(set(part.layers) for part in parts))
+    first = parts[0]
     layers = {name: ids for name, ids in first.layers.items() if has_ids(name, first.metadata)}
     layers |= {
-        name: _mean([render.layers[name] for render in renders], weights)
+        name: _mean([part.layers[name] for part in parts], weights)
         for name in sorted(names.difference(ERRORS, layers))
     }
-    if len(renders) >= SPREAD_FROM:
-        images = [render.image for render in renders]
+    if len(parts) >= SPREAD_FROM:
+        images = [part.image for part in parts]
         layers["error"] = _spread(images, weights)
         blocks = [_block_means(image) for image in images]
         layers["error_block"] = _fill_blocks(_spread(blocks, weights), images[0].shape)
     else:
         for name in names.intersection(ERRORS):
-            squares = [np.square(render.layers[name], dtype=np.float64) for render in renders]
+            squares = [np.square(part.layers[name], dtype=np.float64) for part in parts]
             variance = sum(w**2 * s for w, s in zip(weights, squares, strict=True))
             layers[name] = np.sqrt(variance).astype(np.float32)
-    seeds = [seed for render in renders for seed in render.seeds]
+    seeds = [seed for part in parts for seed in part.seeds]
     metadata = {**first.metadata, "seed": " ".join(seeds), "spp": f"{total:g}"}
     height, width = first.image.shape[:2]
     return Result(
-        _mean([render.image for render in renders], weights),
-        {"seed": seeds, "spp_done": total, "size": [width, height], "renders": len(renders)},
+        _mean([part.image for part in parts], weights),
+        {"seed": seeds, "spp_done": total, "size": [width, height], "renders": len(parts)},
         json.loads(first.metadata["integrator"]),
         layers,
         metadata,

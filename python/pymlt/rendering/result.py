@@ -17,17 +17,19 @@ from .summary import summary
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass
 class Result:
     """What a render left behind."""
 
-    image: np.ndarray  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
+    image: NDArray[np.float32]  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
     stats: Stats  #: the content of stats.json
     integrator: dict  #: type and every parameter, given or default
-    layers: dict[str, np.ndarray] = field(repr=False)  #: further images that were kept, by name
+    layers: dict[str, NDArray[np.float32]] = field(
+        repr=False
+    )  #: further images that were kept, by name
     metadata: dict[str, str] = field(repr=False)  #: what `write` puts into an EXR header
     half: bool = field(default=False, repr=False)  #: EXR with 16-bit samples, as the film asks
 
@@ -37,7 +39,7 @@ class Result:
         return self.stats["seed"]
 
     @property
-    def error_map(self) -> np.ndarray | None:
+    def error_map(self) -> NDArray[np.float32] | None:
         """The standard error of each pixel, of the shape of `image`, or None if it is not known.
 
         It is estimated from the spread of independent groups, and there must be two of them.
@@ -45,7 +47,7 @@ class Result:
         return self.layers.get("error")
 
     @property
-    def block_error(self) -> np.ndarray | None:
+    def block_error(self) -> NDArray[np.float32] | None:
         """The standard errors of the means over blocks of 8 x 8 pixels, or None.
 
         float32, (rows, columns, 3); the blocks at the right and the lower border may be smaller.
@@ -54,7 +56,7 @@ class Result:
         return None if spread is None else spread[::8, ::8]
 
     @property
-    def alpha(self) -> np.ndarray | None:
+    def alpha(self) -> NDArray[np.float32] | None:
         """How much each pixel hides of what lies behind the scene, or None.
 
         float32, (height, width), from 0 to 1; `image` is multiplied by it. A mean over 64 camera
@@ -143,7 +145,7 @@ class Groups(NamedTuple):
 
     #: float32, (groups, height, width, 3): what the mean owes to each. May be negative where groups
     #: borrow light from each other, as those of `pssmlt` do.
-    images: np.ndarray
+    images: NDArray[np.float32]
     weights: np.ndarray  #: of each in the mean, 0 for one that has nothing to say yet
     b: np.ndarray  #: by which each image is scaled, for Metropolis integrators; else 0
 

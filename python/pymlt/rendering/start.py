@@ -20,6 +20,7 @@ from .saved import saved_job
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import NDArray
 
 
 @takes_options
@@ -94,7 +95,7 @@ def render(
     progress: bool | Callable[[float], object] | None = None,
     callback: Callable[[Result], object] | None = None,
     interval: float = 1,
-) -> np.ndarray:
+) -> NDArray[np.float32]:
     """Render and return the image: float32, (height, width, 3), linear Rec. 709, row 0 on top.
 
     With `alpha` it has a fourth channel, by which the colours are multiplied, as in an .exr and not

@@ -15,7 +15,14 @@ from .parts import check_is_scene
 
 
 def load_file(
-    path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines
+    path: str | os.PathLike[str],
+    /,
+    *,
+    size: tuple[int, int] | None = None,
+    lenient: bool | None = None,
+    sensor: int | None = None,
+    filter: str | None = None,
+    **defines: Any,
 ) -> _core.Scene:
     """Load a Mitsuba XML scene.
 
@@ -39,7 +46,15 @@ def load_file(
 
 
 def load_string(
-    xml: str, /, *, directory=".", size=None, lenient=None, sensor=None, filter=None, **defines
+    xml: str,
+    /,
+    *,
+    directory: str | os.PathLike[str] = ".",
+    size: tuple[int, int] | None = None,
+    lenient: bool | None = None,
+    sensor: int | None = None,
+    filter: str | None = None,
+    **defines: Any,
 ) -> _core.Scene:
     """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`.
 
@@ -56,7 +71,14 @@ def load_string(
     )
 
 
-def load_dict(scene: dict, /, *, size=None, sensor=None, filter=None) -> _core.Scene:
+def load_dict(
+    scene: dict,
+    /,
+    *,
+    size: tuple[int, int] | None = None,
+    sensor: int | None = None,
+    filter: str | None = None,
+) -> _core.Scene:
     """Load a scene from a Mitsuba 3 dict.
 
     Transforms may be `Transform`, Mitsuba's own, numpy arrays or nested lists; file names are
