@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import tiny
 from command_line import PYMLT, run, the_error
 from test_spectral import dispersive, room
 
@@ -81,7 +82,7 @@ def test_bands_add_up_to_the_image():
 
 @pytest.mark.parametrize("integrator", [mlt.MLT, mlt.BDPT, mlt.MMLT, mlt.PSSMLT])
 def test_all_algorithms_show_the_same_in_a_band(integrator):
-    scene = mlt.load_file("tests/scenes/prism.xml").with_wavelengths((450, 500))
+    scene = mlt.load_file(tiny.of_cpp("prism")).with_wavelengths((450, 500))
 
     def means(algorithm, seed):
         images = (mlt.render(scene, algorithm, spp=128, seed=seed + k) for k in range(8))
@@ -95,7 +96,7 @@ def test_all_algorithms_show_the_same_in_a_band(integrator):
 
 @pytest.mark.parametrize("mutation", [mlt.Wavelength, mlt.Multiplexed, mlt.Bidirectional])
 def test_mutations_leave_the_target_of_a_band_unchanged(mutation):
-    scene = mlt.load_file("tests/scenes/prism.xml").with_wavelengths((450, 600))
+    scene = mlt.load_file(tiny.of_cpp("prism")).with_wavelengths((450, 600))
     audit = mlt.audit(mutation(), scene, paths=20000, significance=1e-5)
     assert audit, audit.summary()
 
@@ -152,7 +153,7 @@ def test_the_image_is_that_without_bands():
 
 def test_a_checkpoint_knows_its_band(tmp_path):
     path = tmp_path / "render.ckpt"
-    scene = mlt.load("tests/scenes/prism.xml").with_wavelengths((500, 510))
+    scene = mlt.load(tiny.of_cpp("prism")).with_wavelengths((500, 510))
     mlt.render(scene, mlt.MLT(max_depth=6), spp=4, seed=2, checkpoint=path)
     resumed = mlt.resume(path, spp=8).result().image
     np.testing.assert_array_equal(resumed, mlt.render(scene, mlt.MLT(max_depth=6), spp=8, seed=2))
@@ -222,12 +223,12 @@ def test_bands_need_a_spectral_scene():
 
 def test_the_command_line_writes_bands(tmp_path):
     image = tmp_path / "image.exr"
-    arguments = ("tests/scenes/prism.xml", "--bands", "400:500:2", "--spp", 2)
+    arguments = (tiny.of_cpp("prism"), "--bands", "400:500:2", "--spp", 2)
     outcome = run(PYMLT, "render", *arguments, "--integrator", "path", "-o", image)
     assert outcome.returncode == 0, outcome.stderr
     names = [f"spectrum.{ends}nm" for ends in ("400-450", "450-500")]
     assert [name for name in layer_names(image) if name in names] == names
-    scene = mlt.load("tests/scenes/prism.xml")
+    scene = mlt.load(tiny.of_cpp("prism"))
     expected = mlt.render_bands(scene, "path", bands=(400, 500, 2), spp=2)
     for name in names:
         written = mlt.read_image(image, name)
@@ -237,11 +238,11 @@ def test_the_command_line_writes_bands(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("tests/scenes/caustic.xml", "--bands", "3"), "need a spectral scene; add --spectral"),
-        (("tests/scenes/prism.xml", "--bands", "0"), "the number of bands, from 1 to 1000"),
-        (("tests/scenes/prism.xml", "--bands", "700:400:3"), "the lower one first"),
+        ((tiny.of_cpp("caustic"), "--bands", "3"), "need a spectral scene; add --spectral"),
+        ((tiny.of_cpp("prism"), "--bands", "0"), "the number of bands, from 1 to 1000"),
+        ((tiny.of_cpp("prism"), "--bands", "700:400:3"), "the lower one first"),
         (
-            ("tests/scenes/prism.xml", "--bands", "3", "--checkpoint", "none.ckpt"),
+            (tiny.of_cpp("prism"), "--bands", "3", "--checkpoint", "none.ckpt"),
             "--bands cannot be given with --checkpoint",
         ),
     ],

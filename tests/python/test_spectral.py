@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import tiny
 from same_image import assert_same_image, visible_beside
 from test_stored_references import COATING, FILES, NOISY, TO_XYZ, load, xyz_reference
 
@@ -97,7 +98,7 @@ def test_the_bits_are_those_of_any_number_of_threads(integrator):
 
 def test_a_checkpoint_goes_on_with_the_same_bits(tmp_path):
     path = tmp_path / "render.ckpt"
-    scene = mlt.load("tests/scenes/prism.xml")
+    scene = mlt.load(tiny.of_cpp("prism"))
     algorithm = mlt.MLT(max_depth=6)
     mlt.render(scene, algorithm, spp=8, seed=2, checkpoint=path)
     resumed = mlt.resume(path, spp=16).result().image
@@ -106,7 +107,7 @@ def test_a_checkpoint_goes_on_with_the_same_bits(tmp_path):
 
 def test_a_checkpoint_knows_what_was_asked_for(tmp_path):
     path = tmp_path / "render.ckpt"
-    scene = mlt.load("tests/scenes/caustic.xml", spectral=True)
+    scene = mlt.load(tiny.of_cpp("caustic"), spectral=True)
     mlt.render(scene, mlt.Path(max_depth=4), spp=4, checkpoint=path)
     resumed = mlt.resume(path, spp=8).result().image
     np.testing.assert_array_equal(resumed, mlt.render(scene, mlt.Path(max_depth=4), spp=8))
@@ -192,7 +193,7 @@ def test_indices_that_make_no_sense_are_refused(ior, message):
 @pytest.mark.parametrize("integrator", [mlt.BDPT, mlt.MLT, mlt.MMLT, mlt.PSSMLT])
 @pytest.mark.parametrize("scene", ["spectral_room", "prism", "frosted_prism", "spectral_fog"])
 def test_all_algorithms_show_the_same(scene, integrator):
-    loaded = mlt.load_file(f"tests/scenes/{scene}.xml")
+    loaded = mlt.load_file(tiny.of_cpp(scene))
 
     def image(algorithm, spp, seed):
         return mlt.render(loaded, algorithm, spp=spp, seed=seed).astype(float).mean((0, 1))

@@ -401,7 +401,7 @@ def test_tables_name_every_technique_and_vertex(found):
 @pytest.fixture(scope="module")
 def dispersed():
     """A path through the prism, and one that is not dispersed."""
-    scene = mlt.load("tests/scenes/prism.xml")
+    scene = mlt.load(tiny.of_cpp("prism"))
     paths = [scene.sample_path(seed=seed, max_depth=6) for seed in range(400)]
     return tuple(next(path for path in paths if path.dispersed == how) for how in (True, False))
 

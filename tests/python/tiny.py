@@ -1,5 +1,7 @@
 """A scene small enough to render in a moment, as XML and as the dict that means the same."""
 
+from pathlib import Path
+
 XML = """\
 <scene version="3.0.0">
   <default name="res" value="16"/>
@@ -80,3 +82,8 @@ def scene() -> dict:
             "emitter": {"type": "area", "radiance": {"type": "rgb", "value": [5.0, 6.0, 7.0]}},
         },
     }
+
+
+def of_cpp(name: str) -> str:
+    """The path of a scene of the C++ tests."""
+    return str(Path(__file__).resolve().parents[1] / "scenes" / f"{name}.xml")
