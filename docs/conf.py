@@ -49,6 +49,7 @@ myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 python_maximum_signature_line_length = 80
+napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 
@@ -171,6 +172,13 @@ def row(parameter: dict) -> str:
     return f"| `{parameter['name']}` | {parameter['type']} | {shown} | {doc} |"
 
 
+def without_types(app, what, name, shown, options, lines: list[str]) -> None:
+    """napoleon takes what stands before a colon in the first line of a property for its type."""
+    if what in ("attribute", "property"):
+        lines[:0] = ["..", ""]  # an empty comment
+
+
 def setup(app):
+    app.connect("autodoc-process-docstring", without_types, priority=400)
     python_pages()
     plugin_pages()

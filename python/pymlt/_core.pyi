@@ -335,7 +335,7 @@ class LightPath:
         """Density of each x_i when a walk from the camera makes it, per unit of area."""
 
 class _MetropolisModule:
-    """`_core.lab`, the C++ side of pymlt.metropolis: a module."""
+    """`_core.lab`, the C++ side of pymlt.lab.metropolis: a module."""
 
     class Move:
         """A built-in move."""

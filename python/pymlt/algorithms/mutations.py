@@ -19,7 +19,12 @@ def mutation_class_name(name: str) -> str:
 
 def mutation_schemas() -> list[dict]:
     """The schemas of all mutations, with their docs as sentences."""
-    return [{**schema, "doc": f"The {schema['doc']}"} for schema in _core.mutations()]
+    return [{**schema, "doc": sentence(schema["doc"])} for schema in _core.mutations()]
+
+
+def sentence(doc: str) -> str:
+    """What a mutation is, with an article where it has none of its own."""
+    return f"A{doc[1:]}" if doc.startswith("another ") else f"The {doc}"
 
 
 built_in = [

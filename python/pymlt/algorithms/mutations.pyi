@@ -7,6 +7,7 @@ built_in: list[type[BuiltIn]]
 
 def mutation_class_name(name: str) -> str: ...
 def mutation_schemas() -> list[dict[str, Any]]: ...
+def sentence(doc: str) -> str: ...
 
 class Bidirectional(BuiltIn):
     """The bidirectional mutation, which replaces any piece of the path (Veach 1997, sec.
@@ -148,7 +149,7 @@ class Propagation(BuiltIn):
     ) -> None: ...
 
 class Wavelength(BuiltIn):
-    """The another wavelength for the same path; dispersive chains are found again.
+    """Another wavelength for the same path; dispersive chains are found again.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 For example::
 
-    from pymlt import metropolis
+    from pymlt.lab import metropolis
 
     run = metropolis.run(
         lambda x: (x - 0.5) ** 2 if 0 <= x <= 1 else 0,

@@ -127,7 +127,7 @@ def _weighted(moves) -> list[tuple[Any, float]]:
         move, weight = entry
         if not hasattr(move, "propose") and not hasattr(move, "_native"):
             raise _core.UsageError(
-                f"{move!r} is not a move; use one of pymlt.metropolis, a subclass of Move, or "
+                f"{move!r} is not a move; use one of pymlt.lab.metropolis, a subclass of Move, or "
                 "Symmetric(function)"
             )
         if not 0 <= float(weight) < float("inf"):

@@ -2,7 +2,7 @@
 
 For example::
 
-    from pymlt import quadrature
+    from pymlt.lab import quadrature
 
     quadrature.naive(lambda x: x**2, (0, 1), 10_000)          # 0.333 ± 0.003
     quadrature.stratified(lambda x: x**2, (0, 1), 10_000)     # far closer, for the same work
