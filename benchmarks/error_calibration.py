@@ -1,6 +1,7 @@
 """The error that renders claim over the error that they have: docs/error-calibration.md.
 
-Each integrator renders each built-in scene, small, with several seeds by its default settings.
+Each integrator renders each built-in scene, small, with several seeds by its default settings. The
+page's further sections stay as they are.
 """
 
 from __future__ import annotations
@@ -88,7 +89,8 @@ def main() -> None:
         for c in row
     ]
     write_results(args.json, "error_calibration", {"seeds": args.seeds, "spp": args.spp}, rows)
-    PAGE.write_text(page(found, args.spp, args.seeds))
+    further = PAGE.read_text().partition("\n## ")
+    PAGE.write_text(page(found, args.spp, args.seeds) + "".join(further[1:]))
 
 
 if __name__ == "__main__":

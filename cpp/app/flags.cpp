@@ -33,6 +33,18 @@ Parsed parse_positive(const std::string& text) {
   return number && *number > 0 ? Parsed(*number) : std::nullopt;
 }
 
+/// A share, or percent. Throws UsageError for a share above 1, which is probably meant as percent.
+Parsed parse_share(const std::string& text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  const auto number = parse_real(percent ? text.substr(0, text.size() - 1) : text);
+  if (!number || !(*number > 0)) return std::nullopt;
+  const double share = percent ? *number / 100 : *number;
+  if (share > 1 && !percent)
+    throw UsageError(fmt::format("error is {0:g}, which is {1:g} %; did you mean '{0:g}%'?", share,
+                                 100 * share));
+  return share > 1 ? std::nullopt : Parsed(share);
+}
+
 Parsed parse_spp(const std::string& text) {
   const Parsed number = parse_positive(text);
   return number && std::get<double>(*number) <= max_spp ? number : std::nullopt;
@@ -68,6 +80,7 @@ const FlagType any_text{"a text", [](const std::string& text) { return Parsed(te
            [](const std::string& text) -> Parsed { return parse_count(text, highest_int); }},
     stops{"a number from -128 to 128, or auto", parse_stops},
     positive{"a positive number", parse_positive},
+    share{"a share up to 1 or percent up to 100, such as 0.02 or 2%", parse_share},
     spp{"a positive number up to 2147483647", parse_spp},
     image_size{"WIDTHxHEIGHT in pixels, such as 640x360", parse_size},
     assignment{"NAME=VALUE", parse_assignment};
@@ -113,7 +126,7 @@ const std::vector<Flag>& render_flags() {
        Flag::fixed_by_resume},
       {"spp", "--spp", "N", &spp, "samples (or mutations) per pixel"},
       {"time", "--time", "SECONDS", &positive, "seconds to render"},
-      {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
+      {"error", "--error", "E", &share, "relative error to reach, such as 2% or 0.02"},
       {"aovs", "--aov", "LIST", &any_text,
        "layers of what the camera sees first: albedo, depth, position, uv, geo_normal, sh_normal, "
        "shape_index, prim_index, optical_depth (of the media before it), cryptomatte_object, "

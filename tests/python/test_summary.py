@@ -7,7 +7,7 @@ import pytest
 from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
-from pymlt.cli.render import read_error
+from pymlt.cli.common import FLAGS
 from pymlt.rendering.needed import duration, needed
 from pymlt.rendering.options import RenderOptions
 from pymlt.rendering.summary import summary
@@ -99,7 +99,7 @@ def test_what_is_said_to_be_enough_is_enough(scene):
 
 def test_percent_are_a_share(scene):
     for percent, share in (("5%", "0.05"), ("0.7 %", "0.007"), ("100%", "1")):
-        errors = [RenderOptions(error=read_error(text)).error for text in (percent, share)]
+        errors = [RenderOptions(error=FLAGS["error"].read(text)).error for text in (percent, share)]
         assert errors[0] == pytest.approx(errors[1], rel=1e-12)
     images = [mlt.render(scene, "path", error=e, seed=3) for e in ("40%", 0.4)]
     assert np.array_equal(*images)
@@ -113,9 +113,9 @@ def test_percent_are_a_share(scene):
     ("error", "said"),
     [
         ("5", "error is 5, which is 500 %; did you mean '5%'?"),
-        ("150%", "should be at most 100 %"),
-        ("0%", "'0' is not a positive number"),
-        ("much%", "'much' is not a positive number"),
+        ("150%", "is not a share up to 1 or percent up to 100"),
+        ("0%", "'0%' is not a share up to 1"),
+        ("much%", "'much%' is not a share up to 1"),
     ],
 )
 def test_an_error_above_one_is_asked_about(scene, error, said):

@@ -86,13 +86,13 @@ def warn(warnings: list[str]) -> None:
         say(f"warning: {warning}")
 
 
-def add_flag(command: Parser, flag: _core.Flag, help: str = "", read=None) -> None:
+def add_flag(command: Parser, flag: _core.Flag, help: str = "") -> None:
     """A flag of the table that mlt-render shares; None (or []) if it is not given."""
     help = (help or flag.help).replace("%", "%%")
     if not flag.has_value:
         command.add_argument(flag.spelling, action="store_true", help=help)
         return
-    settings = {"metavar": flag.metavar, "help": help, "type": reader(read or flag.read)}
+    settings = {"metavar": flag.metavar, "help": help, "type": reader(flag.read)}
     if flag.repeatable:
         settings |= {"action": "append", "default": []}
     if flag.spelling.startswith("-"):

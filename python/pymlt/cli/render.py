@@ -12,7 +12,7 @@ from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.bands import add_bands, check_spectral, parse_bands, share_of_time
 from ..rendering.job import Job
 from ..rendering.needed import needed
-from ..rendering.options import RenderOptions, relative_error
+from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
@@ -23,16 +23,8 @@ from .signals import Signals
 HELP = "Render a scene to image files."
 
 
-def read_error(text: str) -> float:
-    """A share or percent."""
-    share = FLAGS["error"].read(text.removesuffix("%").rstrip())
-    return relative_error(text if text.endswith("%") else share)
-
-
 # Where pymlt can do more than mlt-render.
-READ_HERE = {"error": read_error}
 HELP_HERE = {
-    "error": "relative error to reach, such as 2% or 0.02",
     "scene": "Mitsuba XML, glTF 2.0 or pbrt file, a mesh (.ply, .obj, .stl), or "
     "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
@@ -46,7 +38,7 @@ GUIDES = "albedo,sh_normal"
 
 def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
-        add_flag(command, flag, HELP_HERE.get(name, ""), READ_HERE.get(name))
+        add_flag(command, flag, HELP_HERE.get(name, ""))
     add_tonemap(command)
     command.add_argument(
         "--bands",
