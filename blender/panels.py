@@ -8,7 +8,7 @@ NOT_CARRIED = (
     "Volumes of objects, grids and worlds; displacement, hair, point clouds",
     "Procedural textures, groups of nodes",
     "Subsurface, sheen, anisotropy, thin films",
-    "Sizes of suns and spots, spread of areas",
+    "Mirrors do not show spots with a size, areas with a spread",
     "Deformation in motion blur, panoramas",
     "Lamps with a size are seen by the camera",
     "Faces glow on the side of their normals",

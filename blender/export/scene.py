@@ -75,8 +75,11 @@ class Objects:
         self._add_placed(still)
 
     def _add_lamp(self, thing, places) -> None:
+        if thing.data.type == "SUN":  # which stays where it is when the shutter opens
+            places = places[:1]
         lamps = [lamp(thing.data, place, self._made) for place in places]
-        self._made.add(thing.name, animated(lamps, self._motion))
+        for moments in zip(*lamps, strict=True):
+            self._made.add(thing.name, animated(list(moments), self._motion))
 
     def _shape(self, thing) -> tuple:
         """The key of the shapes that an object is made of."""

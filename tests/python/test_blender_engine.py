@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from blender_pictures import assert_alike, blocks, picture
 from blender_run import run
 
 import pymlt as mlt
@@ -14,7 +15,6 @@ pytestmark = pytest.mark.skipif(
     not importlib.util.find_spec("bpy"), reason="needs bpy (pip install bpy)"
 )
 HERE = Path(__file__).parent
-BLOCK = 6  #: pixels, of which the means are compared
 
 
 @pytest.fixture(scope="module")
@@ -38,17 +38,6 @@ def facts(tmp_path_factory) -> dict:
     return json.loads((folder / "facts.json").read_text()) | {"folder": folder}
 
 
-def picture(path: Path) -> np.ndarray:
-    return mlt.read_image(path)[..., :3]
-
-
-def blocks(image: np.ndarray) -> np.ndarray:
-    """Means over blocks, in which noise and edges count little."""
-    rows, columns = (side // BLOCK for side in image.shape[:2])
-    cut = image[: rows * BLOCK, : columns * BLOCK]
-    return cut.reshape(rows, BLOCK, columns, BLOCK, 3).mean(axis=(1, 3))
-
-
 MOVING = [f"moving{frame}" for frame in (1, 2, 3)]
 
 
@@ -59,10 +48,7 @@ def test_a_picture_is_that_of_cycles(rendered, name):
     ours = picture(rendered / f"{name}.exr")
     cycles = f"moving-cycles{name[-1]}" if name in MOVING else f"{name}-cycles"
     theirs = picture(rendered / f"{cycles}.exr")
-    np.testing.assert_allclose(ours.mean(axis=(0, 1)), theirs.mean(axis=(0, 1)), rtol=0.05)
-    # A thing that is elsewhere, or turned, would change blocks by more than that.
-    away = np.abs(blocks(ours) - blocks(theirs)).mean() / theirs.mean()
-    assert away < 0.08
+    assert_alike(ours, theirs)
 
 
 @pytest.fixture(scope="module")
