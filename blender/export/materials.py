@@ -5,6 +5,7 @@ from typing import NamedTuple
 from pymlt.formats.imported import Imported, rgb
 
 from . import surfaces
+from .coats import Coat
 from .surfaces import blend, is_number, scaled, twosided
 from .textures import Textures, source
 from .volumes import Volumes
@@ -103,37 +104,34 @@ class Materials:
         for name in UNCARRIED:
             if name in sockets and (sockets[name].is_linked or sockets[name].default_value):
                 self._made.warn(f"{name} of the Principled BSDF is left out")
-        colour, roughness = (
-            self._textures.colour(sockets["Base Color"]),
-            number(sockets["Roughness"]),
-        )
-        ior = sockets["IOR"].default_value
+        colour, roughness = self._shine(node, "Base Color")
+        ior, coat = sockets["IOR"].default_value, self._coat(node)
         scaled = surfaces.scaled_ior(ior, sockets["Specular IOR Level"].default_value)
-        made = self._opaque(self._coated(surfaces.plastic(colour, roughness, scaled), node), node)
-        clear = self._bent(surfaces.glass(colour, roughness, ior), node)
-        made = blend(number(sockets["Transmission Weight"]), made, clear)
-        shiny = self._opaque(self._coated(surfaces.metal(colour, roughness), node), node)
-        made = blend(number(sockets["Metallic"]), made, shiny)
+        made = self._opaque(coat.over_plastic(colour, roughness, scaled), node)
+        clear = coat.over(lambda tint: surfaces.glass(tint, roughness, ior), colour)
+        made = blend(number(sockets["Transmission Weight"]), made, self._bent(clear, node))
+        shiny = coat.over(lambda tint: surfaces.metal(tint, roughness), colour)
+        made = blend(number(sockets["Metallic"]), made, self._opaque(shiny, node))
         opacity = number(sockets["Alpha"])
         if not is_number(opacity) or opacity < 1:
             made = {"type": "mask", "opacity": opacity, "bsdf": made}
-        return Surface(
-            made, self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
-        )
+        glow = self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
+        return Surface(made, glow and coat.dimmed(glow))
 
-    def _coated(self, surface: dict, node) -> dict:
-        """With the clear coat of `principled`, which is a part of that material."""
-        weight = self._textures.number(node.inputs["Coat Weight"])
+    def _coat(self, node) -> Coat:
+        """The coat of a Principled BSDF, which may have the weight 0."""
+        sockets = node.inputs
+        weight = self._textures.number(sockets["Coat Weight"])
         if is_number(weight) and weight <= 0:
-            return surface
-        self._made.warn("coats reflect a quarter of what they do in Cycles")
-        gloss = 1 - min(node.inputs["Coat Roughness"].default_value, 1)
-        coat = {"clearcoat": weight, "clearcoat_gloss": gloss}
-        if surface["type"] != "principled":
-            colour = surface.get("diffuse_reflectance", surface.get("reflectance"))
-            eta = surface.get("int_ior", 1.001)
-            surface = {"type": "principled", "base_color": colour, "roughness": 0.0, "eta": eta}
-        return surface | coat
+            return Coat(0.0, 0.0, 1.0, (1, 1, 1))
+        for name in ("Coat Normal", "Coat IOR", "Coat Tint"):
+            if sockets[name].is_linked:
+                self._made.warn(f"a texture of the {name} of the Principled BSDF is left out")
+        if sockets["Normal"].is_linked:
+            self._made.warn("coats have the normals of what they cover")
+        roughness = self._textures.number(sockets["Coat Roughness"])
+        tint = tuple(sockets["Coat Tint"].default_value[:3])
+        return Coat(weight, roughness, sockets["Coat IOR"].default_value, tint)
 
     def _diffuse(self, node) -> Surface:
         return Surface(self._opaque(surfaces.diffuse(self._textures.colour(node.inputs[0])), node))
