@@ -12,7 +12,6 @@ NOT_CARRIED = (
     "Deformation in motion blur, panoramas",
     "Lamps with a size are seen by the camera",
     "Faces glow on the side of their normals",
-    "With a transparent film, what glows is black to the camera",
 )
 
 

@@ -10,6 +10,8 @@ from . import beams
 from .camera import unscaled
 
 FLIPPED = np.diag([1.0, -1.0, -1.0, 1.0])  #: lamps shine along their -z
+PASSED = {"type": "null"}
+LIGHTS = ("constant", "directional", "envmap", "goniometric", "point")
 SHARP = math.radians(0.01)  #: angle of a sun below which it has no size
 
 
@@ -96,8 +98,14 @@ def spread(half: float, colour, placed, round_: bool) -> list[dict]:
 
 
 def glowing(shape: str, to_world: np.ndarray, radiance: dict) -> dict:
-    made = {"type": shape, "to_world": to_world, "bsdf": {"type": "diffuse", "reflectance": 0.0}}
-    return made | {"emitter": {"type": "area", "radiance": radiance}}
+    """A lamp with a size, which light passes, as in Blender."""
+    emitter = {"type": "area", "radiance": radiance}
+    return {"type": shape, "to_world": to_world, "bsdf": PASSED, "emitter": emitter}
+
+
+def is_light(plugin) -> bool:
+    """Whether a plug-in of a scene dict is a lamp or the world, neither of which is opaque."""
+    return isinstance(plugin, dict) and (plugin["type"] in LIGHTS or plugin.get("bsdf") == PASSED)
 
 
 LAMPS = {"SUN": sun, "POINT": point, "SPOT": spot, "AREA": area}

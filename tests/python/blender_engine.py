@@ -153,6 +153,19 @@ def values(node, **inputs):
         node.inputs[name].default_value = value
 
 
+def cutout():
+    """A text that glows, a box that half of the light passes, and a lamp, all before nothing."""
+    fresh(sky=0.5)
+    glow = material("glow", Emission_Color=(1, 0.9, 0.8, 1), Emission_Strength=3.0)
+    text = add(bpy.ops.object.text_add, glow, location=(-1, -1, 1.2), rotation=(1.2, 0, 0))
+    text.data.body, text.data.extrude = "Hi", 0.1
+    bpy.data.objects["Plane"].scale = (0.3, 0.3, 1)
+    lamp("POINT", 100, (1.5, 0, 1.5), shadow_soft_size=0.4)
+    half = material("half", Alpha=0.5)
+    add(bpy.ops.mesh.primitive_cube_add, half, size=1, location=(0.5, -1.5, 0.8))
+    bpy.context.scene.render.film_transparent = True
+
+
 def moving():
     """A cube that glows and goes to the right by two metres a frame; the shutter is open."""
     fresh()
@@ -183,7 +196,8 @@ def render(path, engine, **how):
     scene.pymlt.integrator, scene.pymlt.samples = "path", SAMPLES
     scene.pymlt.time = scene.pymlt.error = 0
     scene.render.threads_mode, scene.render.threads = "FIXED", 1
-    scene.render.image_settings.file_format = "OPEN_EXR"
+    image = scene.render.image_settings
+    image.file_format, image.color_mode = "OPEN_EXR", "RGBA"
     scene.render.filepath = str(path)
     bpy.ops.render.render(**(how or {"write_still": True}))
 
@@ -203,7 +217,7 @@ def main(folder: Path) -> None:
     import blender
 
     blender.register()
-    for make in (cube, glass, instances, textured, lettering, foggy):
+    for make in (cube, glass, instances, textured, lettering, foggy, cutout):
         make()
         for engine, name in (("PYMLT", make.__name__), ("CYCLES", f"{make.__name__}-cycles")):
             render(folder / f"{name}.exr", engine)

@@ -42,7 +42,7 @@ MOVING = [f"moving{frame}" for frame in (1, 2, 3)]
 
 
 @pytest.mark.parametrize(
-    "name", ["cube", "glass", "instances", "textured", "lettering", "foggy", *MOVING]
+    "name", ["cube", "glass", "instances", "textured", "lettering", "foggy", "cutout", *MOVING]
 )
 def test_a_picture_is_that_of_cycles(rendered, name):
     ours = picture(rendered / f"{name}.exr")
@@ -141,6 +141,17 @@ def test_a_transparent_film_has_alpha_and_no_world(facts):
         assert found[name][0, 0] == 0 < whole[name][0, 0]
         assert found[name][9, 15] == pytest.approx(whole[name][9, 15], rel=0.01)
     assert (whole["ViewLayer.Combined.A"] == 1).all()
+
+
+def test_alpha_is_that_of_cycles(rendered):
+    ours, theirs = (
+        mlt.read_image(rendered / f"{name}.exr")[..., 3] for name in ("cutout", "cutout-cycles")
+    )
+    assert 0.2 < theirs.mean() < 0.8
+    assert np.abs(ours - theirs).mean() < 0.01
+    # Edges are as opaque as what is seen of them.
+    edge = (theirs > 0.1) & (theirs < 0.9)
+    assert ours[edge].mean() == pytest.approx(theirs[edge].mean(), rel=0.05)
 
 
 def test_each_view_layer_has_its_picture(facts):
