@@ -6,7 +6,7 @@ import bpy
 
 import pymlt as mlt
 
-from . import glow, passes
+from . import glow, left_out, passes
 from .export import stepped_export
 from .viewport import Viewport
 
@@ -38,6 +38,7 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
             raise mlt.SceneError("the scene has no camera")
         self.update_stats("", "Reading the scene")
         made = stepped_export(self, depsgraph)
+        left_out.note(depsgraph.scene, made.warnings)
         tell_left_out(self, made.warnings)
         world = mlt.load_dict(made.scene)
         passes.add(self)

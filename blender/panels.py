@@ -1,18 +1,13 @@
 """The panels of the render's properties."""
 
+import textwrap
+
 import bpy
 
+from . import left_out
 from .settings import INTEGRATORS, PymltSettings
 
-NOT_CARRIED = (
-    "Volumes of objects, grids and worlds; displacement, hair, point clouds",
-    "Procedural textures, groups of nodes",
-    "Subsurface, sheen, anisotropy, thin films",
-    "Mirrors do not show spots with a size, areas with a spread",
-    "Deformation in motion blur, panoramas",
-    "Lamps with a size are seen by the camera",
-    "Faces glow on the side of their normals",
-)
+LETTER = 7  #: pixels, about, at the scale 1 of the interface
 
 
 class PymltPanel(bpy.types.Panel):
@@ -56,15 +51,20 @@ class ParametersPanel(PymltPanel):
 
 
 class LeftOutPanel(PymltPanel):
-    """What looks otherwise than in Cycles."""
+    """What of the scene looks otherwise than in Cycles."""
 
     bl_idname = "RENDER_PT_pymlt_left_out"
     bl_label = "Not Rendered"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
 
     def draw(self, context) -> None:
-        for line in NOT_CARRIED:
-            self.layout.label(text=line)
+        scale = context.preferences.system.ui_scale
+        letters = max(int(context.region.width / (LETTER * scale)) - 6, 20)
+        column = self.layout.column(align=True)
+        for sentence in left_out.sentences(context.scene):
+            for line in textwrap.wrap(sentence, letters):
+                column.label(text=line)
+        self.layout.operator(left_out.LookOperator.bl_idname)
 
 
 CLASSES = (SamplingPanel, ParametersPanel, LeftOutPanel)

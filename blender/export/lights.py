@@ -24,6 +24,8 @@ def lamp(light, to_world: np.ndarray, made: Imported) -> list[dict]:
         made.warn("the option Normalize of lights is taken as set")
     if light.node_tree and light.use_nodes:
         made.warn("nodes of lights are left out")
+    if not light.use_shadow:
+        made.warn("lights without shadows cast them")
     return LAMPS[light.type](light, colour, unscaled(to_world), to_world, made)
 
 
@@ -50,7 +52,7 @@ def point(light, colour, placed, *_) -> list[dict]:
     return [glowing("sphere", placed @ np.diag([radius, radius, radius, 1]), radiance)]
 
 
-def spot(light, colour, placed, *_) -> list[dict]:
+def spot(light, colour, placed, _, made: Imported) -> list[dict]:
     """As bright as a point within the cone, however narrow that is.
 
     Blender's blend softens the share `blend` of 1 - cos by a smooth step.
@@ -64,11 +66,13 @@ def spot(light, colour, placed, *_) -> list[dict]:
         return t * t * (3 - 2 * t)
 
     radius = light.shadow_soft_size
+    if radius:
+        made.warn("mirrors do not show spots")
     places = radius * beams.lattice(beams.LEAST if radius else 1, disk=True)
     return beams.lamps(beams.rows(half, profile), colour / (4 * math.pi), placed, places)
 
 
-def area(light, colour, placed, to_world, _) -> list[dict]:
+def area(light, colour, placed, to_world, made: Imported) -> list[dict]:
     """Of power P and area A: the radiance is P / pi A."""
     sides = np.linalg.norm(to_world[:3, :2], axis=0) * light.size
     if light.shape in ("RECTANGLE", "ELLIPSE"):
@@ -76,6 +80,7 @@ def area(light, colour, placed, to_world, _) -> list[dict]:
     round_ = light.shape in ("DISK", "ELLIPSE")
     placed = placed @ np.diag([sides[0] / 2, sides[1] / 2, 1, 1])
     if light.spread < math.pi * 0.999:
+        made.warn("mirrors do not show areas with a spread")
         return spread(light.spread / 2, colour / math.pi, placed, round_)
     size = sides[0] * sides[1] * (math.pi / 4 if round_ else 1)
     radiance = rgb(colour / (math.pi * size))
@@ -101,6 +106,11 @@ def glowing(shape: str, to_world: np.ndarray, radiance: dict) -> dict:
     """A lamp with a size, which light passes, as in Blender."""
     emitter = {"type": "area", "radiance": radiance}
     return {"type": shape, "to_world": to_world, "bsdf": PASSED, "emitter": emitter}
+
+
+def is_seen(plugin: dict) -> bool:
+    """Whether the camera sees a lamp."""
+    return plugin["type"] == "envmap" or plugin.get("bsdf") == PASSED
 
 
 def is_light(plugin) -> bool:
