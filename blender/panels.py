@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from . import left_out
+from . import baking, left_out
 from .settings import INTEGRATORS, PymltSettings
 
 LETTER = 7  #: pixels, about, at the scale 1 of the interface
@@ -32,7 +32,7 @@ class SamplingPanel(PymltPanel):
     def draw(self, context) -> None:
         self.layout.use_property_split = True
         for name in PymltSettings.__annotations__:
-            if name not in INTEGRATORS:
+            if name not in (*INTEGRATORS, "bake_resolution"):
                 self.layout.prop(context.scene.pymlt, name)
 
 
@@ -67,7 +67,21 @@ class LeftOutPanel(PymltPanel):
         self.layout.operator(left_out.LookOperator.bl_idname)
 
 
-CLASSES = (SamplingPanel, ParametersPanel, LeftOutPanel)
+class BakingPanel(PymltPanel):
+    """Textures that have no counterpart, as images."""
+
+    bl_idname = "RENDER_PT_pymlt_baking"
+    bl_label = "Baked Textures"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+
+    def draw(self, context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop(context.scene.pymlt, "bake_resolution")
+        for operator in (baking.BakeOperator, baking.ForgetOperator):
+            self.layout.operator(operator.bl_idname)
+
+
+CLASSES = (SamplingPanel, ParametersPanel, LeftOutPanel, BakingPanel)
 
 
 def shared_panels() -> list[type]:

@@ -86,6 +86,14 @@ class PymltSettings(bpy.types.PropertyGroup):
         description="Seconds after which a view is good enough",
     )
 
+    bake_resolution: IntProperty(
+        name="Resolution",
+        default=1024,
+        min=16,
+        max=16384,
+        description="Width and height of baked textures, in pixels",
+    )
+
     def chosen_integrator(self, *, transparent: bool = False) -> dict:
         """The integrator as a scene dict has it, with the parameters that are no defaults.
 

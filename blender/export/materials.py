@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from pymlt.formats.imported import Imported, rgb
 
-from . import surfaces
+from . import bakes, surfaces
 from .coats import Coat
 from .surfaces import blend, is_number, scaled, twosided
 from .textures import Textures, source
@@ -30,7 +30,8 @@ class Materials:
         self._made = made
         self._textures = Textures(made)
         self._volumes = Volumes(made)
-        self._added: dict[str, Surface] = {}
+        self._added: dict[tuple[str, str], Surface] = {}
+        self.unknown: dict[str, list[tuple[str, str]]] = {}  #: sockets to be baked, by material
         self._shaders = {
             "BSDF_PRINCIPLED": self._principled,
             "BSDF_DIFFUSE": self._diffuse,
@@ -44,17 +45,25 @@ class Materials:
             "ADD_SHADER": self._add,
         }
 
-    def surface(self, material) -> Surface:
-        """A reference to the BSDF of a material, which is added with its first use."""
+    def surface(self, material, mesh=None) -> Surface:
+        """A reference to the BSDF of a material, which is added with its first use.
+
+        Where textures have been baked for a mesh, the material is another one there.
+        """
         if material is None:
             return Surface(twosided(surfaces.diffuse(rgb([0.8, 0.8, 0.8]))))
-        if material.name_full not in self._added:
+        baked = bakes.of(mesh, material)
+        key = (material.name_full, mesh.name_full if baked else "")
+        if key not in self._added:
+            self._textures.begin(baked)
             found = self._of_tree(material)
+            if not all(self._textures.asked.values()):
+                self.unknown[material.name_full] = list(self._textures.asked)
             reference = {"type": "ref", "id": self._made.add(material.name, found.bsdf)}
             inside = found.medium and self._made.add(f"{material.name}-volume", found.medium)
             medium = {"type": "ref", "id": inside} if inside else None
-            self._added[material.name_full] = Surface(reference, found.radiance, medium)
-        return self._added[material.name_full]
+            self._added[key] = Surface(reference, found.radiance, medium)
+        return self._added[key]
 
     def _of_tree(self, material) -> Surface:
         if not material.node_tree:
@@ -91,6 +100,9 @@ class Materials:
             return surface
         if found.node.inputs["Strength"].default_value != 1:
             self._made.warn("the strength of normal maps is left out")
+        if self._textures.is_baked:
+            self._made.warn("normal maps of materials with baked textures are left out")
+            return surface
         image = self._textures.colour(found.node.inputs["Color"])
         if image["type"] == "rgb":
             return surface

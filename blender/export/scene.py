@@ -7,7 +7,7 @@ import numpy as np
 import pymlt as mlt
 from pymlt.formats.imported import Imported
 
-from . import camera, meshes, omissions, world
+from . import bakes, camera, meshes, omissions, world
 from .lights import is_seen, lamp
 from .materials import Materials
 from .motion import Motion, animated, identity
@@ -21,6 +21,13 @@ def export(depsgraph, sensor: dict, motion: Motion | None = None) -> Imported:
         made.add("world", surroundings)
     Objects(made, motion or Motion(), depsgraph.scene).add_all(depsgraph)
     return made
+
+
+def unknown_textures(depsgraph) -> dict[str, list[tuple[str, str]]]:
+    """Materials that have textures without a counterpart: nodes and sockets that are plugged in."""
+    objects = Objects(Imported(), Motion(), depsgraph.scene)
+    objects.add_all(depsgraph)
+    return objects.materials.unknown
 
 
 def looked_through(depsgraph) -> Imported:
@@ -62,7 +69,7 @@ class Objects:
         self._made = made
         self._scene = scene
         self._motion = motion
-        self._materials = Materials(made)
+        self.materials = Materials(made)
         self._shapes: dict[tuple, list[dict]] = {}
         self._placed: list[tuple[tuple, str, tuple]] = []  #: shape, name, identity
 
@@ -95,12 +102,16 @@ class Objects:
         slots = [slot.material for slot in thing.material_slots]
         key = (thing.data.as_pointer(), *(slot and slot.name_full for slot in slots))
         if key not in self._shapes:
-            self._shapes[key] = [self._part(mesh, slots, i) for i, mesh in meshes.parts(thing)]
+            given = thing.original.data
+            baked = {i for i, material in enumerate(slots) if bakes.of(given, material)}
+            self._shapes[key] = [
+                self._part(mesh, slots, i, given) for i, mesh in meshes.parts(thing, baked)
+            ]
         return key
 
-    def _part(self, mesh: dict, slots: list, index: int) -> dict:
+    def _part(self, mesh: dict, slots: list, index: int, given) -> dict:
         material = slots[min(index, len(slots) - 1)] if slots else None
-        surface = self._materials.surface(material)
+        surface = self.materials.surface(material, given)
         if surface.radiance:
             self._made.warn("faces glow on the side of their normals alone")
         glow = surface.radiance and {"emitter": {"type": "area", "radiance": surface.radiance}}

@@ -4,6 +4,7 @@ from mathutils import Euler, Matrix
 
 from pymlt.formats.imported import Imported, rgb
 
+from .bakes import place
 from .images import colours, samples
 
 WRAPS = {"EXTEND": "clamp", "CLIP": "black", "MIRROR": "mirror"}
@@ -26,6 +27,16 @@ class Textures:
     def __init__(self, made: Imported):
         self._made = made
         self._added: dict[tuple, str] = {}
+        self._baked: dict = {}
+        self.asked: dict[tuple[str, str], bool] = {}  #: sockets, and whether they are known
+
+    def begin(self, baked: dict) -> None:
+        """Another material, with its baked images by the places of sockets."""
+        self._baked, self.asked = baked, {}
+
+    @property
+    def is_baked(self) -> bool:
+        return bool(self._baked)
 
     def colour(self, socket) -> dict:
         """What a colour socket gets, as a colour or a texture."""
@@ -34,35 +45,53 @@ class Textures:
             return rgb(socket.default_value[:3])
         if found.node.type == "RGB":
             return rgb(found.default_value[:3])
-        return self._texture(found) or rgb(socket.default_value[:3])
+        return self._texture(socket, found) or rgb(socket.default_value[:3])
 
     def number(self, socket):
         """What a socket of one number gets, as a number or a texture."""
-        found = source(socket)
+        found, channel = source(socket), None
         if found is None:
             return socket.default_value
         if found.node.type == "VALUE":
             return found.default_value
-        if found.node.type == "SEPARATE_COLOR":
-            inner = source(found.node.inputs["Color"])
-            texture = inner and self._texture(inner, CHANNELS.get(found.name))
-        else:
-            texture = self._texture(found)
-        return texture or socket.default_value
+        if found.node.type == "SEPARATE_COLOR" and source(found.node.inputs["Color"]):
+            channel = CHANNELS.get(found.name)
+            found = source(found.node.inputs["Color"])
+        return self._texture(socket, found, channel) or socket.default_value
 
-    def _texture(self, found, channel: int | None = None) -> dict | None:
+    def _texture(self, socket, found, channel: int | None = None) -> dict | None:
+        if place(socket) in self._baked:
+            return self._baked_texture(self._baked[place(socket)], len(socket_values(socket)))
         node = found.node
-        if node.type != "TEX_IMAGE" or not node.image:
+        is_image = node.type == "TEX_IMAGE" and node.image is not None
+        self.asked[place(socket)] = is_image and is_on_uv(node)
+        if not is_image:
             self._made.warn(f"the node {node.bl_label!r} is left out where a texture is wanted")
             return None
+        if not is_on_uv(node):
+            self._made.warn("images are placed by the UV map alone")
         if found.name == "Alpha":
             channel = 3
         key = (node.image.name_full, node.extension, node.interpolation, placement(node), channel)
+        return self._reference(key, node.image.name, lambda: self._bitmap(node, channel))
+
+    def _baked_texture(self, image, channels: int) -> dict | None:
+        def bitmap() -> dict | None:
+            values = samples(image, self._made)
+            if values is None:
+                return None
+            values = values[..., 0] if channels == 1 else colours(values)
+            return {"type": "bitmap", "data": values, "raw": channels == 1, "wrap_mode": "clamp"}
+
+        return self._reference((image.name_full, channels), image.name, bitmap)
+
+    def _reference(self, key: tuple, name: str, make) -> dict | None:
+        """The texture of this key, which is made if it is new."""
         if key not in self._added:
-            bitmap = self._bitmap(node, channel)
+            bitmap = make()
             if bitmap is None:
                 return None
-            self._added[key] = self._made.add(node.image.name, bitmap)
+            self._added[key] = self._made.add(name, bitmap)
         return {"type": "ref", "id": self._added[key]}
 
     def _bitmap(self, node, channel: int | None) -> dict | None:
@@ -82,6 +111,23 @@ class Textures:
         if rows := placement(node):
             bitmap["to_uv"] = [list(row) for row in rows]
         return bitmap
+
+
+def socket_values(socket) -> list:
+    """The numbers of a socket: one, or those of a colour."""
+    value = socket.default_value
+    return list(value) if hasattr(value, "__len__") else [value]
+
+
+def is_on_uv(node) -> bool:
+    """Whether an image lies on the surface by its UV map, and not by what else there is."""
+    found = source(node.inputs["Vector"])
+    if found is not None and found.node.type == "MAPPING":
+        found = source(found.node.inputs["Vector"])
+    if found is None:
+        return node.projection == "FLAT"
+    by_uv = found.node.type == "UVMAP" or (found.node.type, found.name) == ("TEX_COORD", "UV")
+    return by_uv and node.projection == "FLAT"
 
 
 def placement(node) -> tuple | None:
