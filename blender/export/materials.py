@@ -84,13 +84,15 @@ class Materials:
             return Surface(BLACK)
         if found.node.type in self._shaders:
             return self._shaders[found.node.type](found.node)
+        if entered := self._textures.through_shader(found, self._shader):
+            return entered
         self._made.warn(f"the shader {found.node.bl_label!r} is rendered as a diffuse one")
         return Surface(twosided(surfaces.diffuse(rgb([0.8, 0.8, 0.8]))))
 
     def _bent(self, surface: dict, node) -> dict:
         """With the normals that are plugged in."""
         normal = node.inputs.get("Normal")
-        found = normal and source(normal)
+        found = normal and self._textures.plugged(normal)
         if not found:
             return surface
         if found.node.type != "NORMAL_MAP" or found.node.space != "TANGENT":
@@ -114,11 +116,12 @@ class Materials:
     def _principled(self, node) -> Surface:
         sockets, number = node.inputs, self._textures.number
         for name in UNCARRIED:
-            if name in sockets and (sockets[name].is_linked or sockets[name].default_value):
+            if name in sockets and self._textures.constant(sockets[name]):
                 self._made.warn(f"{name} of the Principled BSDF is left out")
         colour, roughness = self._shine(node, "Base Color")
-        ior, coat = sockets["IOR"].default_value, self._coat(node)
-        scaled = surfaces.scaled_ior(ior, sockets["Specular IOR Level"].default_value)
+        ior, coat = self._textures.constant(sockets["IOR"]), self._coat(node)
+        level = self._textures.constant(sockets["Specular IOR Level"])
+        scaled = surfaces.scaled_ior(ior, level)
         made = self._opaque(coat.over_plastic(colour, roughness, scaled), node)
         clear = coat.over(lambda tint: surfaces.glass(tint, roughness, ior), colour)
         made = blend(number(sockets["Transmission Weight"]), made, self._bent(clear, node))
@@ -136,14 +139,11 @@ class Materials:
         weight = self._textures.number(sockets["Coat Weight"])
         if is_number(weight) and weight <= 0:
             return Coat(0.0, 0.0, 1.0, (1, 1, 1))
-        for name in ("Coat Normal", "Coat IOR", "Coat Tint"):
-            if sockets[name].is_linked:
-                self._made.warn(f"a texture of the {name} of the Principled BSDF is left out")
-        if sockets["Normal"].is_linked:
+        if any(self._textures.plugged(sockets[name]) for name in ("Normal", "Coat Normal")):
             self._made.warn("coats have the normals of what they cover")
         roughness = self._textures.number(sockets["Coat Roughness"])
-        tint = tuple(sockets["Coat Tint"].default_value[:3])
-        return Coat(weight, roughness, sockets["Coat IOR"].default_value, tint)
+        tint = tuple(self._textures.constant(sockets["Coat Tint"])[:3])
+        return Coat(weight, roughness, self._textures.constant(sockets["Coat IOR"]), tint)
 
     def _diffuse(self, node) -> Surface:
         return Surface(self._opaque(surfaces.diffuse(self._textures.colour(node.inputs[0])), node))
@@ -164,7 +164,9 @@ class Materials:
         return self._textures.colour(sockets[colour]), self._textures.number(sockets["Roughness"])
 
     def _glass(self, node) -> Surface:
-        made = surfaces.glass(*self._shine(node, "Color"), node.inputs["IOR"].default_value)
+        made = surfaces.glass(
+            *self._shine(node, "Color"), self._textures.constant(node.inputs["IOR"])
+        )
         return Surface(self._bent(made, node))
 
     def _transparent(self, node) -> Surface:
@@ -175,9 +177,7 @@ class Materials:
 
     def _radiance(self, colour, strength) -> dict | None:
         """Colour times strength; None where that is black."""
-        factor, tint = strength.default_value, self._textures.colour(colour)
-        if strength.is_linked:
-            self._made.warn("a texture of the strength of emission is left out")
+        factor, tint = self._textures.constant(strength), self._textures.colour(colour)
         if not factor > 0 or not any(tint.get("value", [1])):
             return None
         return scaled(tint, factor)

@@ -34,7 +34,7 @@ def test_what_is_baked_looks_as_in_cycles(rendered):
 
 
 def test_nothing_that_is_baked_is_left_out(facts):
-    for node in ("Voronoi", "Gradient", "Group"):
+    for node in ("Voronoi", "Gradient", "Checker"):
         assert any(node in sentence for sentence in facts["unbaked"])
         assert not any(node in sentence for sentence in facts["baked"])
 

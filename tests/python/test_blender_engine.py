@@ -42,7 +42,8 @@ MOVING = [f"moving{frame}" for frame in (1, 2, 3)]
 
 
 @pytest.mark.parametrize(
-    "name", ["cube", "glass", "instances", "textured", "lettering", "foggy", "cutout", *MOVING]
+    "name",
+    ["cube", "glass", "instances", "textured", "lettering", "grouped", "foggy", "cutout", *MOVING],
 )
 def test_a_picture_is_that_of_cycles(rendered, name):
     ours = picture(rendered / f"{name}.exr")
