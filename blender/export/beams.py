@@ -10,7 +10,6 @@ import numpy as np
 
 ROWS = 64  #: of a map, from its axis to the edge of the beam
 LEAST = 64  #: lamps without a size that stand for one with a size
-MOST = 1024
 GOLDEN = (math.sqrt(5) - 1) / 2
 
 #: Turns the axis of a map, +y, to the lamp's -z, in which it shines; or to +z, where it is seen.

@@ -14,6 +14,8 @@ PASSED = {"type": "null"}
 LIGHTS = ("constant", "directional", "envmap", "goniometric", "point")
 SHARP = math.radians(0.01)  #: angle of a sun below which it has no size
 
+NARROWEST = 0.2  #: radians; the lights of a narrower spread would be seen as dots
+
 
 def lamp(light, to_world: np.ndarray, made: Imported) -> list[dict]:
     """The plug-ins of a lamp; a lamp with a size is a shape that glows, or many without."""
@@ -81,6 +83,8 @@ def area(light, colour, placed, to_world, made: Imported) -> list[dict]:
     placed = placed @ np.diag([sides[0] / 2, sides[1] / 2, 1, 1])
     if light.spread < math.pi * 0.999:
         made.warn("mirrors do not show areas with a spread")
+        if light.spread < NARROWEST:
+            made.warn(f"areas have a spread of at least {math.degrees(NARROWEST):.2g} degrees")
         return spread(light.spread / 2, colour / math.pi, placed, round_)
     size = sides[0] * sides[1] * (math.pi / 4 if round_ else 1)
     radiance = rgb(colour / (math.pi * size))
@@ -89,7 +93,7 @@ def area(light, colour, placed, to_world, made: Imported) -> list[dict]:
 
 def spread(half: float, colour, placed, round_: bool) -> list[dict]:
     """An area behind a grid, which lets (tan half - tan) pass; the same power as without it."""
-    half = max(half, math.radians(0.5))
+    half = max(half, NARROWEST / 2)
     tangent = math.tan(half)
 
     def profile(theta: np.ndarray) -> np.ndarray:
@@ -97,7 +101,7 @@ def spread(half: float, colour, placed, round_: bool) -> list[dict]:
         return (tangent - np.tan(theta)) * np.cos(theta) / (tangent - half)
 
     # So many that at the distance of one side forty of them light a point.
-    count = int(np.clip(13 / tangent**2, beams.LEAST, beams.MOST))
+    count = max(int(13 / tangent**2), beams.LEAST)
     places = beams.lattice(count, disk=round_)
     return beams.lamps(beams.rows(half, profile), colour, placed, places)
 
