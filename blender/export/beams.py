@@ -33,6 +33,16 @@ def image(brightness: np.ndarray, colour: np.ndarray) -> np.ndarray:
     return np.tile((brightness[:, None, None] * colour).astype(np.float32), (1, 2, 1))
 
 
+def upright(axes: np.ndarray) -> np.ndarray:
+    """This place with axes at right angles, of which z is that of `axes`."""
+    turned = axes.copy()
+    z = axes[:3, 2] / np.linalg.norm(axes[:3, 2])
+    x = axes[:3, 0] - z * (axes[:3, 0] @ z)
+    x /= np.linalg.norm(x)
+    turned[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
+    return turned
+
+
 def lattice(count: int, *, disk: bool) -> np.ndarray:
     """Places that fill the square [-1, 1]^2 or the disk in it evenly, (count, 2)."""
     u = (np.arange(count) + 0.5) / count
@@ -47,8 +57,7 @@ def lamps(brightness: np.ndarray, colour, axes: np.ndarray, places: np.ndarray) 
 
     The lengths of the axes scale the places.
     """
-    turned = axes.copy()
-    turned[:3, :3] /= np.linalg.norm(axes[:3, :3], axis=0)
+    turned = upright(axes)
     data, made = image(brightness, colour / len(places)), []
     for x, y in places:
         to_world = turned @ FORWARDS

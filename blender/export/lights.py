@@ -38,7 +38,7 @@ def sun(light, colour, placed, *_) -> list[dict]:
         return [{"type": "directional", "irradiance": rgb(colour), "direction": direction}]
     half = light.angle / 2
     disk = beams.image(beams.rows(half, lambda theta: theta < half), colour)
-    turned = placed @ beams.BACKWARDS
+    turned = beams.upright(placed) @ beams.BACKWARDS
     turned[:3, 3] = 0
     scale = 1 / (math.pi * math.sin(half) ** 2)
     return [{"type": "envmap", "data": disk, "scale": scale, "to_world": turned}]

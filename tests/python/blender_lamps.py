@@ -45,6 +45,15 @@ LAMPS = {
 }
 
 
+def sheared(*where, **values):
+    """A lamp that is turned within a parent of other scales."""
+    lit(*where, **values)
+    thing = bpy.context.object
+    bpy.ops.object.empty_add()
+    bpy.context.object.scale = (1, 1.5, 1)
+    thing.parent = bpy.context.object
+
+
 def main(folder: Path) -> None:
     sys.path.insert(0, str(ROOT))
     import blender
@@ -57,6 +66,11 @@ def main(folder: Path) -> None:
         without = FIRST if name != "spot-of-a-size" else {"shadow_soft_size": 0.0}
         lit(*where, **values | {k: v for k, v in without.items() if k in values})
         render(folder / f"{name}-without.exr", "CYCLES")
+    for name in ("sun", "beam"):
+        *where, values = LAMPS[name]
+        sheared(*where, **values)
+        render(folder / f"{name}-sheared.exr", "PYMLT")
+        render(folder / f"{name}-sheared-cycles.exr", "CYCLES")
 
 
 if __name__ == "__main__":

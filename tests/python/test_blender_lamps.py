@@ -34,3 +34,9 @@ def test_a_lamp_has_its_size_and_its_beam(rendered, name):
 
     # What the size or the beam changes in Cycles is at least twice what we miss.
     assert away(ours) < 0.5 * away(without)
+
+
+@pytest.mark.parametrize("name", ["sun", "beam"])
+def test_a_lamp_may_be_sheared(rendered, name):
+    ours, theirs = (picture(rendered / f"{name}-sheared{kind}.exr") for kind in ("", "-cycles"))
+    assert_alike(ours, theirs)
