@@ -45,7 +45,7 @@ def sun(light, colour, placed, *_) -> list[dict]:
 
 
 def point(light, colour, placed, *_) -> list[dict]:
-    """Of power P: intensity P / 4 pi; a sphere of radius r has the radiance P / (2 pi r)^2."""
+    """A power P is an intensity P / 4 pi; a sphere of radius r has the radiance P / (2 pi r)^2."""
     radius = light.shadow_soft_size
     if not radius:
         intensity = rgb(colour / (4 * math.pi))
@@ -75,7 +75,7 @@ def spot(light, colour, placed, _, made: Imported) -> list[dict]:
 
 
 def area(light, colour, placed, to_world, made: Imported) -> list[dict]:
-    """Of power P and area A: the radiance is P / pi A."""
+    """A power P on an area A is a radiance P / pi A."""
     sides = np.linalg.norm(to_world[:3, :2], axis=0) * light.size
     if light.shape in ("RECTANGLE", "ELLIPSE"):
         sides[1] *= light.size_y / light.size
