@@ -1,15 +1,19 @@
 """A render engine for Blender that renders with pymlt."""
 
-from . import engine, panels, settings
+from . import baking, engine, left_out, panels, settings
 
 
 def register() -> None:
     settings.register()
+    baking.register()
     engine.register()
+    left_out.register()
     panels.register()
 
 
 def unregister() -> None:
     panels.unregister()
+    left_out.unregister()
     engine.unregister()
+    baking.unregister()
     settings.unregister()

@@ -6,7 +6,7 @@ import bpy
 
 import pymlt as mlt
 
-from . import passes
+from . import glow, left_out, passes
 from .export import stepped_export
 from .viewport import Viewport
 
@@ -38,17 +38,21 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
             raise mlt.SceneError("the scene has no camera")
         self.update_stats("", "Reading the scene")
         made = stepped_export(self, depsgraph)
+        left_out.note(depsgraph.scene, made.warnings)
         tell_left_out(self, made.warnings)
         world = mlt.load_dict(made.scene)
         passes.add(self)
-        show = partial(self._show, depsgraph.view_layer.name)
+        settings, seen = depsgraph.scene.pymlt, 0.0
+        if depsgraph.scene.render.film_transparent:
+            seen = glow.seen_directly(made.scene, settings.seed)
+        show = partial(self._show, depsgraph.view_layer.name, seen)
         found = follow(start(world, depsgraph.scene), self.test_break, show)
-        show(found.denoise() if depsgraph.scene.pymlt.denoise else found, 1)
+        show(found.denoise() if settings.denoise else found, 1)
 
-    def _show(self, layer: str, found: mlt.Result, progress: float) -> None:
+    def _show(self, layer: str, seen, found: mlt.Result, progress: float) -> None:
         height, width = found.image.shape[:2]
         result = self.begin_result(0, 0, width, height, layer=layer)
-        passes.write(result.layers[0], found.image, found.layers)
+        passes.write(result.layers[0], found.image + seen, found.layers)
         self.end_result(result)
         self.update_stats("", statistics(found))
         self.update_progress(progress)

@@ -1,19 +1,13 @@
 """The panels of the render's properties."""
 
+import textwrap
+
 import bpy
 
+from . import baking, left_out
 from .settings import INTEGRATORS, PymltSettings
 
-NOT_CARRIED = (
-    "Volumes of objects, grids and worlds; displacement, hair, point clouds",
-    "Procedural textures, groups of nodes",
-    "Subsurface, sheen, anisotropy, thin films",
-    "Sizes of suns and spots, spread of areas",
-    "Deformation in motion blur, panoramas",
-    "Lamps with a size are seen by the camera",
-    "Faces glow on the side of their normals",
-    "With a transparent film, what glows is black to the camera",
-)
+LETTER = 7  #: pixels, about, at the scale 1 of the interface
 
 
 class PymltPanel(bpy.types.Panel):
@@ -38,7 +32,7 @@ class SamplingPanel(PymltPanel):
     def draw(self, context) -> None:
         self.layout.use_property_split = True
         for name in PymltSettings.__annotations__:
-            if name not in INTEGRATORS:
+            if name not in (*INTEGRATORS, "bake_resolution"):
                 self.layout.prop(context.scene.pymlt, name)
 
 
@@ -57,18 +51,37 @@ class ParametersPanel(PymltPanel):
 
 
 class LeftOutPanel(PymltPanel):
-    """What looks otherwise than in Cycles."""
+    """What of the scene looks otherwise than in Cycles."""
 
     bl_idname = "RENDER_PT_pymlt_left_out"
     bl_label = "Not Rendered"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
 
     def draw(self, context) -> None:
-        for line in NOT_CARRIED:
-            self.layout.label(text=line)
+        scale = context.preferences.system.ui_scale
+        letters = max(int(context.region.width / (LETTER * scale)) - 6, 20)
+        column = self.layout.column(align=True)
+        for sentence in left_out.sentences(context.scene):
+            for line in textwrap.wrap(sentence, letters):
+                column.label(text=line)
+        self.layout.operator(left_out.LookOperator.bl_idname)
 
 
-CLASSES = (SamplingPanel, ParametersPanel, LeftOutPanel)
+class BakingPanel(PymltPanel):
+    """Textures that have no counterpart, as images."""
+
+    bl_idname = "RENDER_PT_pymlt_baking"
+    bl_label = "Baked Textures"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+
+    def draw(self, context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop(context.scene.pymlt, "bake_resolution")
+        for operator in (baking.BakeOperator, baking.ForgetOperator):
+            self.layout.operator(operator.bl_idname)
+
+
+CLASSES = (SamplingPanel, ParametersPanel, LeftOutPanel, BakingPanel)
 
 
 def shared_panels() -> list[type]:

@@ -28,11 +28,15 @@ def integrator_class(name: str) -> type:
     return type(f"Pymlt_{name}", (bpy.types.PropertyGroup,), {"__annotations__": fields})
 
 
+#: Files of Blender know an integrator by its place here: new ones come at the end.
+PLACES = ("aov", "bdpt", "depth", "direct", "erpt", "mlt", "mmlt", "path", "pssmlt", "ptracer",
+          "rjmlt")  # fmt: skip
 INTEGRATORS = {name: integrator_class(name) for name in mlt.available("integrator")}
 
 
-def integrator_items() -> list[tuple[str, str, str]]:
-    return [(name, name, _core.schema("integrator", name)["doc"]) for name in INTEGRATORS]
+def integrator_items() -> list[tuple]:
+    documented = {name: _core.schema("integrator", name)["doc"] for name in INTEGRATORS}
+    return [(name, name, doc, "NONE", PLACES.index(name)) for name, doc in documented.items()]
 
 
 class PymltSettings(bpy.types.PropertyGroup):
@@ -80,6 +84,14 @@ class PymltSettings(bpy.types.PropertyGroup):
         subtype="TIME_ABSOLUTE",
         unit="TIME_ABSOLUTE",
         description="Seconds after which a view is good enough",
+    )
+
+    bake_resolution: IntProperty(
+        name="Resolution",
+        default=1024,
+        min=16,
+        max=16384,
+        description="Width and height of baked textures, in pixels",
     )
 
     def chosen_integrator(self, *, transparent: bool = False) -> dict:

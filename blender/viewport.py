@@ -6,6 +6,7 @@ from gpu_extras.presets import draw_texture_2d
 
 import pymlt as mlt
 
+from . import left_out
 from .export import camera, export
 from .preview import Preview
 
@@ -22,6 +23,7 @@ class Viewport:
         settings = depsgraph.scene.pymlt
         try:
             made = export(depsgraph, view_sensor(context, self._pixel_size(depsgraph)))
+            left_out.note(depsgraph.scene, made.warnings)
             how = {"integrator": settings.preview_integrator, "time": settings.preview_time}
             self._preview.update(made.scene, seed=settings.seed, **how)
         except mlt.Error as error:

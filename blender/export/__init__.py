@@ -1,5 +1,6 @@
 """Blender's evaluated scene as a scene dict of pymlt."""
 
-from .scene import export, stepped_export
+from .lights import is_light
+from .scene import export, looked_through, stepped_export, unknown_textures
 
-__all__ = ["export", "stepped_export"]
+__all__ = ["export", "is_light", "looked_through", "stepped_export", "unknown_textures"]

@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 from pymlt.formats.imported import Imported, rgb
 
-from . import surfaces
+from . import bakes, surfaces
+from .coats import Coat
 from .surfaces import blend, is_number, scaled, twosided
 from .textures import Textures, source
 from .volumes import Volumes
@@ -29,7 +30,8 @@ class Materials:
         self._made = made
         self._textures = Textures(made)
         self._volumes = Volumes(made)
-        self._added: dict[str, Surface] = {}
+        self._added: dict[tuple[str, str], Surface] = {}
+        self.unknown: dict[str, list[tuple[str, str]]] = {}  #: sockets to be baked, by material
         self._shaders = {
             "BSDF_PRINCIPLED": self._principled,
             "BSDF_DIFFUSE": self._diffuse,
@@ -43,17 +45,25 @@ class Materials:
             "ADD_SHADER": self._add,
         }
 
-    def surface(self, material) -> Surface:
-        """A reference to the BSDF of a material, which is added with its first use."""
+    def surface(self, material, mesh=None) -> Surface:
+        """A reference to the BSDF of a material, which is added with its first use.
+
+        Where textures have been baked for a mesh, the material is another one there.
+        """
         if material is None:
             return Surface(twosided(surfaces.diffuse(rgb([0.8, 0.8, 0.8]))))
-        if material.name_full not in self._added:
+        baked = bakes.of(mesh, material)
+        key = (material.name_full, mesh.name_full if baked else "")
+        if key not in self._added:
+            self._textures.begin(baked)
             found = self._of_tree(material)
+            if not all(self._textures.asked.values()):
+                self.unknown[material.name_full] = list(self._textures.asked)
             reference = {"type": "ref", "id": self._made.add(material.name, found.bsdf)}
             inside = found.medium and self._made.add(f"{material.name}-volume", found.medium)
             medium = {"type": "ref", "id": inside} if inside else None
-            self._added[material.name_full] = Surface(reference, found.radiance, medium)
-        return self._added[material.name_full]
+            self._added[key] = Surface(reference, found.radiance, medium)
+        return self._added[key]
 
     def _of_tree(self, material) -> Surface:
         if not material.node_tree:
@@ -74,13 +84,15 @@ class Materials:
             return Surface(BLACK)
         if found.node.type in self._shaders:
             return self._shaders[found.node.type](found.node)
+        if entered := self._textures.through_shader(found, self._shader):
+            return entered
         self._made.warn(f"the shader {found.node.bl_label!r} is rendered as a diffuse one")
         return Surface(twosided(surfaces.diffuse(rgb([0.8, 0.8, 0.8]))))
 
     def _bent(self, surface: dict, node) -> dict:
         """With the normals that are plugged in."""
         normal = node.inputs.get("Normal")
-        found = normal and source(normal)
+        found = normal and self._textures.plugged(normal)
         if not found:
             return surface
         if found.node.type != "NORMAL_MAP" or found.node.space != "TANGENT":
@@ -90,6 +102,9 @@ class Materials:
             return surface
         if found.node.inputs["Strength"].default_value != 1:
             self._made.warn("the strength of normal maps is left out")
+        if self._textures.is_baked:
+            self._made.warn("normal maps of materials with baked textures are left out")
+            return surface
         image = self._textures.colour(found.node.inputs["Color"])
         if image["type"] == "rgb":
             return surface
@@ -101,39 +116,34 @@ class Materials:
     def _principled(self, node) -> Surface:
         sockets, number = node.inputs, self._textures.number
         for name in UNCARRIED:
-            if name in sockets and (sockets[name].is_linked or sockets[name].default_value):
+            if name in sockets and self._textures.constant(sockets[name]):
                 self._made.warn(f"{name} of the Principled BSDF is left out")
-        colour, roughness = (
-            self._textures.colour(sockets["Base Color"]),
-            number(sockets["Roughness"]),
-        )
-        ior = sockets["IOR"].default_value
-        scaled = surfaces.scaled_ior(ior, sockets["Specular IOR Level"].default_value)
-        made = self._opaque(self._coated(surfaces.plastic(colour, roughness, scaled), node), node)
-        clear = self._bent(surfaces.glass(colour, roughness, ior), node)
-        made = blend(number(sockets["Transmission Weight"]), made, clear)
-        shiny = self._opaque(self._coated(surfaces.metal(colour, roughness), node), node)
-        made = blend(number(sockets["Metallic"]), made, shiny)
+        colour, roughness = self._shine(node, "Base Color")
+        ior, coat = self._textures.constant(sockets["IOR"]), self._coat(node)
+        level = self._textures.constant(sockets["Specular IOR Level"])
+        scaled = surfaces.scaled_ior(ior, level)
+        made = self._opaque(coat.over_plastic(colour, roughness, scaled), node)
+        clear = coat.over(lambda tint: surfaces.glass(tint, roughness, ior), colour)
+        made = blend(number(sockets["Transmission Weight"]), made, self._bent(clear, node))
+        shiny = coat.over(lambda tint: surfaces.metal(tint, roughness), colour)
+        made = blend(number(sockets["Metallic"]), made, self._opaque(shiny, node))
         opacity = number(sockets["Alpha"])
         if not is_number(opacity) or opacity < 1:
             made = {"type": "mask", "opacity": opacity, "bsdf": made}
-        return Surface(
-            made, self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
-        )
+        glow = self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
+        return Surface(made, glow and coat.dimmed(glow))
 
-    def _coated(self, surface: dict, node) -> dict:
-        """With the clear coat of `principled`, which is a part of that material."""
-        weight = self._textures.number(node.inputs["Coat Weight"])
+    def _coat(self, node) -> Coat:
+        """The coat of a Principled BSDF, which may have the weight 0."""
+        sockets = node.inputs
+        weight = self._textures.number(sockets["Coat Weight"])
         if is_number(weight) and weight <= 0:
-            return surface
-        self._made.warn("coats reflect a quarter of what they do in Cycles")
-        gloss = 1 - min(node.inputs["Coat Roughness"].default_value, 1)
-        coat = {"clearcoat": weight, "clearcoat_gloss": gloss}
-        if surface["type"] != "principled":
-            colour = surface.get("diffuse_reflectance", surface.get("reflectance"))
-            eta = surface.get("int_ior", 1.001)
-            surface = {"type": "principled", "base_color": colour, "roughness": 0.0, "eta": eta}
-        return surface | coat
+            return Coat(0.0, 0.0, 1.0, (1, 1, 1))
+        if any(self._textures.plugged(sockets[name]) for name in ("Normal", "Coat Normal")):
+            self._made.warn("coats have the normals of what they cover")
+        roughness = self._textures.number(sockets["Coat Roughness"])
+        tint = tuple(self._textures.constant(sockets["Coat Tint"])[:3])
+        return Coat(weight, roughness, self._textures.constant(sockets["Coat IOR"]), tint)
 
     def _diffuse(self, node) -> Surface:
         return Surface(self._opaque(surfaces.diffuse(self._textures.colour(node.inputs[0])), node))
@@ -154,7 +164,9 @@ class Materials:
         return self._textures.colour(sockets[colour]), self._textures.number(sockets["Roughness"])
 
     def _glass(self, node) -> Surface:
-        made = surfaces.glass(*self._shine(node, "Color"), node.inputs["IOR"].default_value)
+        made = surfaces.glass(
+            *self._shine(node, "Color"), self._textures.constant(node.inputs["IOR"])
+        )
         return Surface(self._bent(made, node))
 
     def _transparent(self, node) -> Surface:
@@ -165,9 +177,7 @@ class Materials:
 
     def _radiance(self, colour, strength) -> dict | None:
         """Colour times strength; None where that is black."""
-        factor, tint = strength.default_value, self._textures.colour(colour)
-        if strength.is_linked:
-            self._made.warn("a texture of the strength of emission is left out")
+        factor, tint = self._textures.constant(strength), self._textures.colour(colour)
         if not factor > 0 or not any(tint.get("value", [1])):
             return None
         return scaled(tint, factor)

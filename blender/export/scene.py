@@ -7,8 +7,8 @@ import numpy as np
 import pymlt as mlt
 from pymlt.formats.imported import Imported
 
-from . import camera, meshes, world
-from .lights import lamp
+from . import bakes, camera, meshes, omissions, world
+from .lights import is_seen, lamp
 from .materials import Materials
 from .motion import Motion, animated, identity
 
@@ -19,8 +19,21 @@ def export(depsgraph, sensor: dict, motion: Motion | None = None) -> Imported:
     made.add("camera", sensor)
     if surroundings := world.light(depsgraph.scene.world, made):
         made.add("world", surroundings)
-    Objects(made, motion or Motion()).add_all(depsgraph)
+    Objects(made, motion or Motion(), depsgraph.scene).add_all(depsgraph)
     return made
+
+
+def unknown_textures(depsgraph) -> dict[str, list[tuple[str, str]]]:
+    """Materials that have textures without a counterpart: nodes and sockets that are plugged in."""
+    objects = Objects(Imported(), Motion(), depsgraph.scene)
+    objects.add_all(depsgraph)
+    return objects.materials.unknown
+
+
+def looked_through(depsgraph) -> Imported:
+    """A scene as it stands still, seen by its camera if there is one."""
+    eye = depsgraph.scene_eval.camera
+    return export(depsgraph, final_sensor(None, depsgraph, Motion()) if eye else {})
 
 
 def stepped_export(engine, depsgraph) -> Imported:
@@ -52,10 +65,11 @@ def final_sensor(engine, depsgraph, motion: Motion) -> dict:
 class Objects:
     """The objects while they are added."""
 
-    def __init__(self, made: Imported, motion: Motion):
+    def __init__(self, made: Imported, motion: Motion, scene):
         self._made = made
+        self._scene = scene
         self._motion = motion
-        self._materials = Materials(made)
+        self.materials = Materials(made)
         self._shapes: dict[tuple, list[dict]] = {}
         self._placed: list[tuple[tuple, str, tuple]] = []  #: shape, name, identity
 
@@ -68,27 +82,38 @@ class Objects:
             still[key] = np.array(instance.matrix_world)
             if thing.type == "LIGHT":
                 self._add_lamp(thing, self._motion.matrices(key, still[key]))
-            elif thing.type == "MESH":
+                continue
+            omissions.warn(thing, self._scene, self._made)
+            if thing.type == "MESH":
                 self._placed.append((self._shape(thing), thing.name, key))
-            elif thing.type in ("CURVES", "POINTCLOUD", "VOLUME"):
-                self._made.warn("hair, point clouds and volume objects are left out")
         self._add_placed(still)
 
     def _add_lamp(self, thing, places) -> None:
+        if thing.data.type == "SUN":  # which stays where it is when the shutter opens
+            places = places[:1]
         lamps = [lamp(thing.data, place, self._made) for place in places]
-        self._made.add(thing.name, animated(lamps, self._motion))
+        for moments in zip(*lamps, strict=True):
+            self._made.add(thing.name, animated(list(moments), self._motion))
+        if is_seen(lamps[0][0]) and not self._scene.render.film_transparent:
+            self._made.warn("lamps with a size are seen by the camera")
 
     def _shape(self, thing) -> tuple:
         """The key of the shapes that an object is made of."""
         slots = [slot.material for slot in thing.material_slots]
         key = (thing.data.as_pointer(), *(slot and slot.name_full for slot in slots))
         if key not in self._shapes:
-            self._shapes[key] = [self._part(mesh, slots, i) for i, mesh in meshes.parts(thing)]
+            given = thing.original.data
+            baked = {i for i, material in enumerate(slots) if bakes.of(given, material)}
+            self._shapes[key] = [
+                self._part(mesh, slots, i, given) for i, mesh in meshes.parts(thing, baked)
+            ]
         return key
 
-    def _part(self, mesh: dict, slots: list, index: int) -> dict:
+    def _part(self, mesh: dict, slots: list, index: int, given) -> dict:
         material = slots[min(index, len(slots) - 1)] if slots else None
-        surface = self._materials.surface(material)
+        surface = self.materials.surface(material, given)
+        if surface.radiance:
+            self._made.warn("faces glow on the side of their normals alone")
         glow = surface.radiance and {"emitter": {"type": "area", "radiance": surface.radiance}}
         inside = surface.medium and {"interior": surface.medium}
         return mesh | {"bsdf": surface.bsdf} | (glow or {}) | (inside or {})

@@ -35,8 +35,18 @@ def plastic(colour, roughness, ior: float) -> dict:
 
 def mean_reflectance(ior: float) -> float:
     """Schlick's R_0 + (1 - R_0) (1 - cos)^5, integrated over the directions of even light."""
-    r = ((ior - 1) / (ior + 1)) ** 2
+    r = normal_reflectance(ior)
     return r + (1 - r) / 21
+
+
+def normal_reflectance(ior: float) -> float:
+    return ((ior - 1) / (ior + 1)) ** 2
+
+
+def index_of(reflectance: float) -> float:
+    """The index of this reflectance along the normal."""
+    r = math.sqrt(reflectance)
+    return (1 + r) / (1 - r)
 
 
 def metal(colour, roughness) -> dict:
@@ -65,9 +75,14 @@ def root(colour: dict) -> dict:
 
 def scaled(colour: dict, factor: float) -> dict:
     """A colour or a texture times a number."""
+    return tinted(colour, [factor] * 3)
+
+
+def tinted(colour: dict, tint) -> dict:
+    """A colour or a texture times a colour."""
     if colour["type"] == "rgb":
-        return rgb(factor * value for value in colour["value"])
-    return {"type": "scale", "scale": factor, "texture": colour}
+        return rgb(a * b for a, b in zip(tint, colour["value"], strict=True))
+    return {"type": "scale", "scale": rgb(tint), "texture": colour}
 
 
 def blend(weight, first: dict, second: dict) -> dict:
@@ -81,5 +96,4 @@ def blend(weight, first: dict, second: dict) -> dict:
 
 def scaled_ior(ior: float, level: float) -> float:
     """The index of which the reflectance along the normal is 2 `level` times that of `ior`."""
-    r = min(math.sqrt(2 * max(level, 0)) * abs(ior - 1) / (ior + 1), 0.99)
-    return (1 + r) / (1 - r)
+    return index_of(min(2 * max(level, 0) * normal_reflectance(ior), 0.98))

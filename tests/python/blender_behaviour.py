@@ -67,8 +67,8 @@ def shown(engine) -> list[str]:
     return texts
 
 
-def noisy(path: Path, denoise: bool) -> None:
-    scene = small(samples=1, denoise=denoise)
+def noisy(path: Path, seed: int, denoise: bool) -> None:
+    scene = small(samples=1, seed=seed, denoise=denoise)
     scene.render.resolution_x, scene.render.resolution_y = 64, 36
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.filepath = str(path)
@@ -119,8 +119,9 @@ def main(archive: str, folder: Path) -> None:
     passes(folder / "passes.exr")
     layers(folder / "layers.exr")
     transparent(folder / "transparent.exr")
-    noisy(folder / "noisy.exr", denoise=False)
-    noisy(folder / "denoised.exr", denoise=True)
+    for seed in range(4):
+        noisy(folder / f"noisy{seed}.exr", seed, denoise=False)
+        noisy(folder / f"denoised{seed}.exr", seed, denoise=True)
     bpy.ops.preferences.addon_disable(module=name)
     facts["disabled"] = not hasattr(bpy.types.Scene, "pymlt")
     (folder / "facts.json").write_text(json.dumps(facts))

@@ -123,6 +123,40 @@ def lettering():
     camera.dof.focus_distance, camera.dof.aperture_fstop = 6.0, 0.2
 
 
+def grouped():
+    """Two balls of one group of shaders, with other colours, and a floor whose colour is one."""
+    fresh(sky=0.3)
+    inner = bpy.data.node_groups.new("shader", "ShaderNodeTree")
+    for name, kind in (("Tint", "Color"), ("Roughness", "Float"), ("IOR", "Float")):
+        inner.interface.new_socket(name, in_out="INPUT", socket_type=f"NodeSocket{kind}")
+    inner.interface.new_socket("BSDF", in_out="OUTPUT", socket_type="NodeSocketShader")
+    begin, end, principled = (
+        inner.nodes.new(name)
+        for name in ("NodeGroupInput", "NodeGroupOutput", "ShaderNodeBsdfPrincipled")
+    )
+    for given, socket in (("Tint", "Base Color"), ("Roughness", "Roughness"), ("IOR", "IOR")):
+        inner.links.new(begin.outputs[given], principled.inputs[socket])
+    inner.links.new(principled.outputs[0], end.inputs[0])
+    for x, colour in ((-1.2, (0.8, 0.1, 0.1, 1)), (1.2, (0.1, 0.2, 0.8, 1))):
+        made = material("grouped")
+        group = made.node_tree.nodes.new("ShaderNodeGroup")
+        group.node_tree = inner
+        values(group, Tint=colour, Roughness=0.3, IOR=2.0)
+        end = made.node_tree.nodes["Material Output"].inputs["Surface"]
+        made.node_tree.links.new(group.outputs[0], end)
+        add(bpy.ops.mesh.primitive_uv_sphere_add, made, location=(x, 0, 1))
+    tone = bpy.data.node_groups.new("tone", "ShaderNodeTree")
+    tone.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
+    colour, end = (tone.nodes.new(name) for name in ("ShaderNodeRGB", "NodeGroupOutput"))
+    colour.outputs[0].default_value = (0.2, 0.6, 0.3, 1)
+    tone.links.new(colour.outputs[0], end.inputs[0])
+    tree = bpy.data.materials["floor"].node_tree
+    group = tree.nodes.new("ShaderNodeGroup")
+    group.node_tree = tone
+    tree.links.new(group.outputs[0], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    lamp("AREA", 150, (2, -2, 4), (0.5, 0.4, 0), size=1.5)
+
+
 def foggy():
     """A box of fog, scattered and absorbed by two nodes, and a ball of a principled volume."""
     fresh(sky=0.3)
@@ -151,6 +185,19 @@ def foggy():
 def values(node, **inputs):
     for name, value in inputs.items():
         node.inputs[name].default_value = value
+
+
+def cutout():
+    """A text that glows, a box that half of the light passes, and a lamp, all before nothing."""
+    fresh(sky=0.5)
+    glow = material("glow", Emission_Color=(1, 0.9, 0.8, 1), Emission_Strength=3.0)
+    text = add(bpy.ops.object.text_add, glow, location=(-1, -1, 1.2), rotation=(1.2, 0, 0))
+    text.data.body, text.data.extrude = "Hi", 0.1
+    bpy.data.objects["Plane"].scale = (0.3, 0.3, 1)
+    lamp("POINT", 100, (1.5, 0, 1.5), shadow_soft_size=0.4)
+    half = material("half", Alpha=0.5)
+    add(bpy.ops.mesh.primitive_cube_add, half, size=1, location=(0.5, -1.5, 0.8))
+    bpy.context.scene.render.film_transparent = True
 
 
 def moving():
@@ -183,7 +230,8 @@ def render(path, engine, **how):
     scene.pymlt.integrator, scene.pymlt.samples = "path", SAMPLES
     scene.pymlt.time = scene.pymlt.error = 0
     scene.render.threads_mode, scene.render.threads = "FIXED", 1
-    scene.render.image_settings.file_format = "OPEN_EXR"
+    image = scene.render.image_settings
+    image.file_format, image.color_mode = "OPEN_EXR", "RGBA"
     scene.render.filepath = str(path)
     bpy.ops.render.render(**(how or {"write_still": True}))
 
@@ -203,7 +251,7 @@ def main(folder: Path) -> None:
     import blender
 
     blender.register()
-    for make in (cube, glass, instances, textured, lettering, foggy):
+    for make in (cube, glass, instances, textured, lettering, grouped, foggy, cutout):
         make()
         for engine, name in (("PYMLT", make.__name__), ("CYCLES", f"{make.__name__}-cycles")):
             render(folder / f"{name}.exr", engine)

@@ -2,12 +2,11 @@
 
 import importlib.util
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from blender_run import run
 
 import pymlt as mlt
 
@@ -22,11 +21,7 @@ GLOW = "ignore:.*glow do so on the side of their normals"
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("blender")
-    script = Path(__file__).with_name("blender_scene.py")
-    done = subprocess.run(
-        [sys.executable, script, folder], capture_output=True, text=True, timeout=250
-    )
-    assert done.returncode == 0, done.stderr
+    run("blender_scene.py", folder, user=folder / "user")
     return folder
 
 

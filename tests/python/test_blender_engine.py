@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from blender_pictures import assert_alike, blocks, picture
 from blender_run import run
 
 import pymlt as mlt
@@ -14,7 +15,6 @@ pytestmark = pytest.mark.skipif(
     not importlib.util.find_spec("bpy"), reason="needs bpy (pip install bpy)"
 )
 HERE = Path(__file__).parent
-BLOCK = 6  #: pixels, of which the means are compared
 
 
 @pytest.fixture(scope="module")
@@ -38,31 +38,18 @@ def facts(tmp_path_factory) -> dict:
     return json.loads((folder / "facts.json").read_text()) | {"folder": folder}
 
 
-def picture(path: Path) -> np.ndarray:
-    return mlt.read_image(path)[..., :3]
-
-
-def blocks(image: np.ndarray) -> np.ndarray:
-    """Means over blocks, in which noise and edges count little."""
-    rows, columns = (side // BLOCK for side in image.shape[:2])
-    cut = image[: rows * BLOCK, : columns * BLOCK]
-    return cut.reshape(rows, BLOCK, columns, BLOCK, 3).mean(axis=(1, 3))
-
-
 MOVING = [f"moving{frame}" for frame in (1, 2, 3)]
 
 
 @pytest.mark.parametrize(
-    "name", ["cube", "glass", "instances", "textured", "lettering", "foggy", *MOVING]
+    "name",
+    ["cube", "glass", "instances", "textured", "lettering", "grouped", "foggy", "cutout", *MOVING],
 )
 def test_a_picture_is_that_of_cycles(rendered, name):
     ours = picture(rendered / f"{name}.exr")
     cycles = f"moving-cycles{name[-1]}" if name in MOVING else f"{name}-cycles"
     theirs = picture(rendered / f"{cycles}.exr")
-    np.testing.assert_allclose(ours.mean(axis=(0, 1)), theirs.mean(axis=(0, 1)), rtol=0.05)
-    # A thing that is elsewhere, or turned, would change blocks by more than that.
-    away = np.abs(blocks(ours) - blocks(theirs)).mean() / theirs.mean()
-    assert away < 0.08
+    assert_alike(ours, theirs)
 
 
 @pytest.fixture(scope="module")
@@ -157,6 +144,17 @@ def test_a_transparent_film_has_alpha_and_no_world(facts):
     assert (whole["ViewLayer.Combined.A"] == 1).all()
 
 
+def test_alpha_is_that_of_cycles(rendered):
+    ours, theirs = (
+        mlt.read_image(rendered / f"{name}.exr")[..., 3] for name in ("cutout", "cutout-cycles")
+    )
+    assert 0.2 < theirs.mean() < 0.8
+    assert np.abs(ours - theirs).mean() < 0.01
+    # Edges are as opaque as what is seen of them.
+    edge = (theirs > 0.1) & (theirs < 0.9)
+    assert ours[edge].mean() == pytest.approx(theirs[edge].mean(), rel=0.05)
+
+
 def test_each_view_layer_has_its_picture(facts):
     found = channels(facts["folder"] / "layers.exr")
     assert found["ViewLayer.Combined.R"].std() > 0.02
@@ -169,7 +167,8 @@ def test_the_denoiser_takes_noise_away(facts, rendered):
     clean = picture(rendered / "cube.exr")[cube]
 
     def error(name):
-        return np.abs(picture(facts["folder"] / f"{name}.exr")[cube] - clean).mean()
+        pictures = [picture(facts["folder"] / f"{name}{seed}.exr") for seed in range(4)]
+        return np.mean([np.abs(noisy[cube] - clean).mean() for noisy in pictures])
 
     # Without the denoiser the same samples would have the same error; with it more than half of
     # that would be left if a filter had spread the noise over several pixels.
