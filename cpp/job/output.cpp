@@ -98,7 +98,7 @@ Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const Ma
 
 void write_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options) {
-  const Image* const alpha = alpha_of(render);
+  const Image* const alpha = alpha_problem(path).empty() ? alpha_of(render) : nullptr;
   Image whole;
   if (alpha) whole = with_alpha(render.image, *alpha);
   if (alpha && has_straight_alpha(path)) whole = straight(std::move(whole));
