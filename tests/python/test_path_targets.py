@@ -24,7 +24,7 @@ def target(scene):
 
 
 def chains(target, seed):
-    start = target.bootstrap(100_000, chains=4000, seed=seed)
+    start = target.bootstrap(60_000, chains=2000, seed=seed)
     return metropolis.run(target, MOVES, start, n=20, seed=seed, expected_values=True)
 
 
@@ -77,7 +77,7 @@ def test_a_mean_is_that_under_l_star_of_the_quotient(name, scene, target, plain)
         expected = plain.estimate(lambda x, g=g: g(x) * quotient(x))
         error = np.hypot(found.standard_error, expected.standard_error)
         assert abs(found.estimate - expected.estimate) < 4.5 * error + 1e-12, label
-        assert expected.estimate == 0 or error < 0.15 * abs(expected.estimate), label
+        assert expected.estimate == 0 or error < 0.2 * abs(expected.estimate), label
 
 
 def test_l_star_comes_back_from_a_power(scene, target, plain):
