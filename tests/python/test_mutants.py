@@ -32,6 +32,26 @@ def test_the_table_of_the_documentation_names_every_mutant():
     assert re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) == [m.name for m in LIST]
 
 
+FOUND_BY = re.findall(
+    r"^\| `\w+` \| .* \| `([^`]*)` \|$",
+    (REPOSITORY / "docs" / "mutants.md").read_text(),
+    re.MULTILINE,
+)
+
+
+@pytest.mark.parametrize("test", sorted(set(FOUND_BY)))
+def test_a_test_that_the_documentation_names_exists(test):
+    if ".py" in test:
+        file, name = re.match(r"(?:tests/python/)?(\w+\.py)::(\w+)", test).groups()
+        definition, files = f"def {name}\\b", [REPOSITORY / "tests/python" / file]
+    else:
+        parts = r"(\w+)\.(?:[A-Z]\w*/)?([A-Z]\w*)(?:/\d+)?\.(\w*)"
+        folder, suite, name = re.match(parts, test).groups()
+        definition = rf"TEST\w*\(\s*{suite},\s*{name}"
+        files = (REPOSITORY / "tests" / "cpp" / folder).rglob("*.cpp")
+    assert any(re.search(definition, path.read_text()) for path in files)
+
+
 def test_a_mutant_whose_text_is_gone_is_an_error_that_names_it(tmp_path):
     mutant = mutants.Mutant("twice", "a.h", old="x", new="y", tests="math")
     for text, times in [("", 0), ("x x", 2)]:
