@@ -100,6 +100,24 @@ def test_the_makefile_says_what_a_release_runs(target):
     assert f"release/{scripts[target]}.py" in plan
 
 
+def test_the_conda_package_is_what_the_wheel_is():
+    yaml = pytest.importorskip("yaml")
+    recipe = yaml.safe_load((ROOT / "release" / "conda" / "recipe.yaml").read_text())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert recipe["context"]["version"] == project["version"]
+    assert recipe["about"]["summary"] == project["description"]
+    assert recipe["about"]["license"] == project["license"]
+    names = {"OpenImageIO": "py-openimageio"}  # of what conda-forge calls otherwise
+    asked = [re.fullmatch(r"([\w-]+)(>=\S+)", need).groups() for need in project["dependencies"]]
+    needs = {f"{names.get(name, name)} {version}" for name, version in asked}
+    assert set(recipe["requirements"]["run"]) == {"python", *needs}
+    script = recipe["build"]["script"].replace("${{ PYTHON }}", sys.executable)
+    flags = script.replace("${{ version }}", project["version"]).split()
+    tried = [*flags, "--dry-run", "--ignore-installed"]
+    said = subprocess.run(tried, cwd=ROOT / "release", capture_output=True, text=True)
+    assert f"pymlt=={project['version']}" in said.stderr  # that there is no wheel here
+
+
 # ---- what others supply --------------------------------------------------------------------------
 
 
