@@ -5,6 +5,7 @@
 #include "text.h"
 
 #include "io/editing.h"
+#include "io/view_nodes.h"
 #include "job/plugins.h"
 
 namespace mlt::python {
@@ -97,6 +98,15 @@ LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values) {
   LoadedScene resized = loaded;
   resized.size = size;
   return build_again(resized, tree, plugins());
+}
+
+LoadedScene seen_by(const LoadedScene& loaded, const py::dict& sensor) {
+  Node tree = loaded.tree;
+  const py::dict given = arrays().attr("with_bytes")(sensor);
+  tree.children.push_back(to_node(given, "sensor", "sensor", plugins()));
+  const auto last = static_cast<int64_t>(sensor_count(tree)) - 1;
+  const ReleasedGil release;
+  return build_again(loaded, asking_for(std::move(tree), last), plugins());
 }
 
 }  // namespace mlt::python

@@ -1,14 +1,12 @@
 // The shapes, lights and sensors of a scene, as they are listed in Python.
 #include "scene_parts.h"
 
-#include "scene_dict.h"
 #include "scene_editing.h"
 #include "shape_triangles.h"
 #include "text.h"
 
 #include "io/editing.h"
 #include "io/surface_names.h"
-#include "io/view_nodes.h"
 #include "job/plugins.h"
 
 #include <fmt/format.h>
@@ -77,15 +75,6 @@ py::tuple box_of(const LoadedScene& loaded) {
     high = glm::max(high, h);
   }
   return box(low + loaded.scene->origin(), high + loaded.scene->origin());
-}
-
-/// The scene seen by another sensor. Throws SceneError for one that is wrong.
-LoadedScene seen_by(const LoadedScene& loaded, const py::dict& sensor) {
-  Node tree = loaded.tree;
-  const py::object bytes = py::module_::import("pymlt.scenes.arrays").attr("with_bytes")(sensor);
-  tree.children.push_back(to_node(bytes, "sensor", "sensor", plugins()));
-  const auto last = static_cast<int64_t>(sensor_count(tree)) - 1;
-  return build_again(loaded, asking_for(tree, last), plugins());
 }
 
 }  // namespace

@@ -125,6 +125,14 @@ def test_who_renders_an_edited_scene_as_it_was_is_told_once():
         rendered(params)
 
 
+@pytest.mark.parametrize("how", [{}, {"spectral": True}, {"sensor": tiny.scene()["sensor"]}])
+def test_the_warning_names_the_line_that_renders(how):
+    scene, _ = edited()
+    with pytest.warns(UserWarning, match="edited") as found:
+        mlt.render(scene, "path", spp=1, **how)
+    assert found[0].filename == __file__
+
+
 @pytest.mark.parametrize("twice", [False, True])
 def test_who_has_used_the_new_scene_may_render_the_old_one(twice):
     scene, params = edited()

@@ -120,3 +120,9 @@ def test_percent_are_a_share(scene):
 )
 def test_an_error_above_one_is_asked_about(scene, error, said):
     assert said in the_error(run(RENDER, scene, "--error", error, "-o", "a.exr"))
+
+
+@pytest.mark.parametrize("error", ["0%", "-3%", "150%", "much%"])
+def test_percent_that_are_no_share_are_refused_in_python(scene, error):
+    with pytest.raises(mlt.UsageError, match=f"error '{error}' is not a share up to 1 or percent"):
+        mlt.start(scene, "path", error=error)

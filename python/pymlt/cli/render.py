@@ -28,7 +28,8 @@ HELP_HERE = {
     "scene": "Mitsuba XML, glTF 2.0 or pbrt file, a mesh (.ply, .obj, .stl), or "
     "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
-    "exposure": "brighten PNG and JPEG files by this number of stops; auto: as suits the image",
+    "exposure": "brighten pictures (PNG, JPEG, TIFF) by this number of stops; auto: as suits the "
+    "image",
 }
 
 

@@ -100,18 +100,19 @@ def as_scene(scene, sensor=None, spectral=False) -> _core.Scene:
     `sensor` is the index of one of its sensors, a member of `Scene.sensors`, or the dict of another
     one.
     """
-    if spectral:
-        return as_scene(scene, sensor).with_wavelengths()
-    if isinstance(sensor, dict):
-        return as_scene(scene).with_sensor(sensor)
+    index = None if isinstance(sensor, dict) else sensor
     if isinstance(scene, SceneParameters):
         scene = scene.scene
     if isinstance(scene, _core.Scene):
         replaced.fetch(scene)
         replaced.warn_if_replaced(scene)
-        return scene if sensor is None else scene.with_sensor(sensor_index(sensor))
-    if isinstance(scene, dict):
-        return load_dict(scene, sensor=sensor)
-    if isinstance(scene, str | os.PathLike):
-        return load(scene, sensor=sensor)
-    raise _core.UsageError(f"{scene!r} is not a scene, a dict, the path of a file, or a name")
+        found = scene if index is None else scene.with_sensor(sensor_index(index))
+    elif isinstance(scene, dict):
+        found = load_dict(scene, sensor=index)
+    elif isinstance(scene, str | os.PathLike):
+        found = load(scene, sensor=index)
+    else:
+        raise _core.UsageError(f"{scene!r} is not a scene, a dict, the path of a file, or a name")
+    if index is not sensor:
+        found = found.with_sensor(sensor)
+    return found.with_wavelengths() if spectral else found

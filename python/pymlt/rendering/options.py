@@ -8,7 +8,6 @@ import numbers
 import operator
 import os
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -134,19 +133,14 @@ def number(name: str, value) -> float | None:
 
 def relative_error(value: float | str | None) -> float | None:
     """A share up to 1, 0.05, or percent, "5%". Raises UsageError for what is neither."""
-    share = None
+    (flag,) = (flag for flag in _core.render_flags() if flag.name == "error")
     if isinstance(value, str) and value.endswith("%"):
-        with suppress(ValueError):
-            share = float(value[:-1]) / 100
-        if share is None or share > 1:
-            raise _core.UsageError(f"error is {value!r}, but should be at most 100 %, such as '5%'")
-        return share
+        try:
+            return flag.read(value)
+        except _core.UsageError as error:
+            raise _core.UsageError(f"error {error}") from None
     share = number("error", value)
-    if share is not None and share > 1:
-        raise _core.UsageError(
-            f"error is {share:g}, which is {100 * share:g} %; did you mean '{share:g}%'?"
-        )
-    return share
+    return flag.read(repr(share)) if share is not None and share > 1 else share
 
 
 def seconds(name: str, value) -> float:

@@ -93,14 +93,15 @@ class Result:
     def write(
         self, path: str | os.PathLike[str], exposure: Exposure = 0, *, tonemap: str = "srgb"
     ) -> None:
-        """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
+        """Write the image to .exr (settings, seed and version in its header), .hdr, .png, .jpg
+        or .tif.
 
         An .exr and a .png have alpha if there is one, the .png with colours that are not multiplied
         by it; other files show the image over black. An .exr holds the layers too; beside NAME.png,
         NAME.techniques.png shows the techniques, if there are any, for which it needs the extra
-        `plots`. `exposure` brightens .png and .jpg, in stops, or "auto" as suits the image;
-        `tonemap` names their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`). Raises
-        FileError if it cannot be written, UsageError for an unknown curve or extension.
+        `plots`. `exposure` brightens pictures (.png, .jpg, .tif), in stops, or "auto" as suits the
+        image; `tonemap` names their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`).
+        Raises FileError if it cannot be written, UsageError for an unknown curve or extension.
         """
         self._file(path, exposure, tonemap).write()
 
