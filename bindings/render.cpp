@@ -69,6 +69,22 @@ py::tuple groups(PyJob& job) {
                         py::array_t<double>(count, b.data()));
 }
 
+py::object halves(PyJob& job) {
+  std::optional<Halves> halves = without_gil([&] { return job.halves(); });
+  if (!halves) return py::none();
+  const auto pair = [](Half& half) {
+    return py::make_tuple(to_array(std::move(half.image)), to_array(std::move(half.robust)));
+  };
+  return py::make_tuple(pair(halves->first), pair(halves->second));
+}
+
+void judge_by(PyJob& job, py::function error) {
+  job.judge_by([held = hold(std::move(error))] {
+    const AcquiredGil gil;
+    return py::cast<double>((*held)());
+  });
+}
+
 std::optional<double> relative_error(const PyJob& job) {
   const double error = without_gil([&] { return job.error()->relative.value; });
   return std::isnan(error) ? std::nullopt : std::optional(error);
@@ -108,6 +124,9 @@ void bind_render(py::module_& m) {
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),
            py::arg("checkpoint"), py::arg("aovs"), py::arg("alpha"))
+      .def("judge_by", &judge_by, py::arg("error"),
+           "Before start: what tells the error that the budget bounds, an upper bound or NaN; a "
+           "thread of the job calls it.")
       .def("start", &PyJob::start, NoGil())
       .def("wait", &wait, py::arg("seconds"))
       .def("cancel", &PyJob::cancel, NoGil())
@@ -142,6 +161,9 @@ void bind_render(py::module_& m) {
            [](PyJob& job) {
              return to_array(without_gil([&] { return job.image_without_fireflies(); }));
            })
+      .def("halves", &halves,
+           "Two halves of the image so far that share no group, each as (image, image without "
+           "fireflies); None while there are fewer than four groups.")
       .def("relative_error", &relative_error,
            "The relative error so far, or None if nothing is known.")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")

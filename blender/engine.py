@@ -1,6 +1,7 @@
 """The render engine and its final renders."""
 
 from functools import partial
+from time import monotonic
 
 import bpy
 
@@ -10,7 +11,8 @@ from . import glow, left_out, passes
 from .export import stepped_export
 from .viewport import Viewport
 
-INTERVAL = 0.5  #: seconds between two looks at a render
+INTERVAL = 0.5  #: seconds between two looks at a render, at the least
+REST = 4.0  #: times as long as a look takes until the next one, which may be denoised
 
 
 class PymltEngine(Viewport, bpy.types.RenderEngine):
@@ -47,7 +49,7 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
             seen = glow.seen_directly(made.scene, settings.seed)
         show = partial(self._show, depsgraph.view_layer.name, seen)
         found = follow(start(world, depsgraph.scene), self.test_break, show)
-        show(found.denoise() if settings.denoise else found, 1)
+        show(found, 1)
 
     def _show(self, layer: str, seen, found: mlt.Result, progress: float) -> None:
         height, width = found.image.shape[:2]
@@ -66,15 +68,19 @@ def start(world: mlt.Scene, scene) -> mlt.Job:
     seed = settings.seed + settings.animate_seed * max(scene.frame_current, 0)
     transparent = scene.render.film_transparent
     integrator = settings.chosen_integrator(transparent=transparent)
-    options = {"aovs": passes.AOVS, "alpha": transparent, **settings.budget()}
+    options = {"aovs": passes.AOVS, "alpha": transparent, "denoise": settings.denoise}
+    options |= settings.budget()
     return mlt.start(world, integrator, seed=seed, threads=threads, **options)
 
 
 def follow(job: mlt.Job, is_stopped, show) -> mlt.Result:
     """Shows a render while it runs, until it has ended or Blender stops it."""
     try:
+        due = 0.0
         while not job.wait(INTERVAL) and not is_stopped():
-            show(job.snapshot(), job.progress)
+            if (begun := monotonic()) >= due:
+                show(job.snapshot(), job.progress)
+                due = monotonic() + REST * (monotonic() - begun)
     finally:
         job.cancel()
     job.wait()
@@ -83,7 +89,8 @@ def follow(job: mlt.Job, is_stopped, show) -> mlt.Result:
 
 def statistics(found: mlt.Result) -> str:
     """What the line above the picture says."""
-    samples, error = found.stats["spp_done"], found.stats["error"]
+    stats = found.stats
+    samples, error = stats["spp_done"], stats.get("denoised_error", stats["error"])
     known = "" if error is None else f", error {100 * error:.2g} %"
     return f"{samples:.4g} samples per pixel{known}"
 

@@ -11,7 +11,27 @@ Color pixel(const Image& image, size_t i) {
   return Color(image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]);
 }
 
-/// The adaptive median of means over the groups of one rendering.
+}  // namespace
+
+int left_out(const std::vector<float>& sorted) {
+  const int count = static_cast<int>(sorted.size());
+  double sum = 0, weighted = 0;
+  for (int i = 0; i < count; ++i) {
+    sum += sorted[i];
+    weighted += (i + 1) * double{sorted[i]};
+  }
+  if (!(sum > 0)) return 0;
+  const double gini = 2 * weighted / (count * sum) - (count + 1.0) / count;
+  return std::min(static_cast<int>(std::clamp(gini, 0.0, 1.0) * count / 2), (count - 1) / 2);
+}
+
+std::vector<GroupImage> groups_with_images(const Rendering& rendering) {
+  std::vector<GroupImage> groups;
+  for (int g = 0; g < Rendering::group_count; ++g)
+    if (GroupImage group = rendering.group(g); group.weight > 0) groups.push_back(std::move(group));
+  return groups;
+}
+
 Image adaptive_median(const std::vector<Image>& groups) {
   Image image(groups[0].width, groups[0].height, 3);
   std::vector<float> brightness(groups.size()), sorted;
@@ -35,25 +55,9 @@ Image adaptive_median(const std::vector<Image>& groups) {
   return image;
 }
 
-}  // namespace
-
-int left_out(const std::vector<float>& sorted) {
-  const int count = static_cast<int>(sorted.size());
-  double sum = 0, weighted = 0;
-  for (int i = 0; i < count; ++i) {
-    sum += sorted[i];
-    weighted += (i + 1) * double{sorted[i]};
-  }
-  if (!(sum > 0)) return 0;
-  const double gini = 2 * weighted / (count * sum) - (count + 1.0) / count;
-  return std::min(static_cast<int>(std::clamp(gini, 0.0, 1.0) * count / 2), (count - 1) / 2);
-}
-
 Image without_fireflies(const Rendering& rendering) {
   std::vector<Image> groups;
-  for (int g = 0; g < Rendering::group_count; ++g)
-    if (GroupImage group = rendering.group(g); group.weight > 0)
-      groups.push_back(std::move(group.image));
+  for (GroupImage& group : groups_with_images(rendering)) groups.push_back(std::move(group.image));
   if (groups.empty()) return rendering.image();
   Image image = adaptive_median(groups);
   for (const Rendering* part : rendering.parts()) image += without_fireflies(*part);

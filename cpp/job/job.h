@@ -5,6 +5,7 @@
 #include "job/autosave.h"
 #include "job/error_estimate.h"
 #include "job/executor.h"
+#include "job/halves.h"
 #include "job/memory_reserve.h"
 #include "job/stop_rule.h"
 #include "rendering/cryptomatte.h"
@@ -40,6 +41,8 @@ class Job {
 
   /// Before start(): sets the executor of the units, in place of the threads of this process.
   void attach(std::unique_ptr<Executor> executor);
+  /// Before start(): see StopRule. The leading thread calls `error` while no unit is running.
+  void judge_by(std::function<double()> error) { stop_rule_.judge_by(std::move(error)); }
   void start();  ///< Throws RenderError if memory is short.
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows the
   /// exception that ended it.
@@ -75,6 +78,8 @@ class Job {
   Image image() const;      ///< The image so far: linear RGB, row 0 on top.
   /// The image so far, without fireflies (see without_fireflies).
   Image image_without_fireflies() const;
+  /// Two halves of the image so far (see halves.h), or nothing.
+  std::optional<Halves> halves() const;
   /// Further images that the render was asked to keep, layers of the first surface (see aov.h),
   /// alpha, and the error of the image, so far.
   std::vector<NamedImage> layers() const;

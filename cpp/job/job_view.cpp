@@ -51,6 +51,12 @@ Image Job::image_without_fireflies() const {
   return without_fireflies(*rendering_);
 }
 
+std::optional<Halves> Job::halves() const {
+  check_here();
+  const std::lock_guard lock(merging_);
+  return mlt::halves(*rendering_);
+}
+
 std::shared_ptr<const ErrorEstimate> Job::error() const {
   check_here();
   const std::lock_guard no_merging(merging_);

@@ -58,7 +58,7 @@ void StopRule::begin(const Rendering& rendering) {
 
 std::string StopRule::why_to_end(const Rendering& rendering, uint64_t units, double seconds) {
   if (budget_.error && units > 0 && units == next_look(rendering, units - 1)) {
-    seen_error_ = bound(estimate_error(rendering).relative);
+    seen_error_ = error_ ? error_() : bound(estimate_error(rendering).relative);
     seen_units_ = units;
     if (seen_error_ <= *budget_.error) return "error";
   }

@@ -5,6 +5,7 @@
 #include "rendering/integrator.h"
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,10 @@ class StopRule {
   /// Replaces the budget. Not while the render is going on.
   void set(const Budget& budget);
 
+  /// Sets what tells the error, in place of estimate_error: an upper bound, or NaN if it is not
+  /// known.
+  void judge_by(std::function<double()> error) { error_ = std::move(error); }
+
   /// The largest number of samples per pixel that may be taken.
   double most_spp() const { return budget_.spp.value_or(max_spp); }
 
@@ -54,6 +59,7 @@ class StopRule {
 
   const Scene* scene_;
   Budget budget_;
+  std::function<double()> error_;
   bool default_ = true;  ///< No budget was asked for.
   std::atomic<uint64_t> unit_count_{0};
   std::atomic<double> seen_error_{0};  ///< The latest estimate, 0: none; and its units.

@@ -9,6 +9,7 @@ import tiny
 
 import pymlt as mlt
 from pymlt import cli
+from pymlt.pictures.halves import target_luminance
 
 pytest.importorskip("pyoidn", reason="needs pymlt[denoise]")
 
@@ -121,13 +122,95 @@ def test_the_layers_of_a_result_guide_the_filter():
     assert not np.array_equal(other.image, expected)
 
 
-def test_the_command_line_denoises_renders_and_files(scene, tmp_path):
+def test_the_command_line_denoises_renders_and_files(scene):
     assert cli.main(["render", scene, "--spp", "16", "--denoise", "-o", "a.exr"]) == 0
     layers = ["--aov", "albedo,sh_normal", "--fireflies", "groups"]
     assert cli.main(["render", scene, "--spp", "16", *layers, "-o", "b.exr"]) == 0
     assert cli.main(["denoise", "b.exr", "-o", "c.exr"]) == 0
-    assert (tmp_path / "a.exr").read_bytes() == (tmp_path / "c.exr").read_bytes()
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.read_image("c.exr"))
+    assert np.array_equal(mlt.read_image("a.exr", "noisy"), mlt.read_image("b.exr", "unfiltered"))
     assert np.array_equal(mlt.read_image("c.exr", "noisy"), mlt.read_image("b.exr"))
+
+
+# ---- renders that are denoised, with their error -----------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def box():
+    return mlt.load("cornell-box", size=(96, 72), filter="box")
+
+
+@pytest.fixture(scope="module")
+def reference(box):
+    return mlt.render(box, "bdpt", spp=512, seed=99)
+
+
+def relative_error(image, reference) -> float:
+    found, true = (target_luminance(x) for x in (image, reference))
+    return float(np.sqrt(np.mean((found - true) ** 2 / (true**2 + 0.01 * true.mean() ** 2))))
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "mlt", "pssmlt"])
+def test_a_denoised_render_tells_its_error(box, reference, integrator):
+    result = mlt.start(box, integrator, spp=64, seed=1, denoise=True).result()
+    noisy = mlt.render(box, integrator, spp=64, seed=1)
+    assert np.array_equal(result.layers["noisy"], noisy)
+    assert result.error_map is result.layers["denoised_error"]
+    assert result.error_map.shape == noisy.shape
+    assert result.layers["error"].any()
+    true = relative_error(result.image, reference)
+    assert true < 0.75 * relative_error(noisy, reference)
+    assert 0.6 < result.stats["denoised_error"] / true < 1.6
+    assert f"denoised {100 * result.stats['denoised_error']:.2g} %" in repr(result)
+
+
+def test_an_error_budget_is_that_of_the_denoised_image(box, reference):
+    results = [
+        mlt.start(box, "path", error=0.06, seed=1, threads=threads, denoise=True).result()
+        for threads in (1, 2)
+    ]
+    for result in results:
+        assert result.stats["ended_by"] == "error"
+        assert result.stats["denoised_error"] <= 0.06 < result.stats["error"]
+        assert relative_error(result.image, reference) < 0.06
+    assert np.array_equal(results[0].image, results[1].image)
+
+
+def test_a_running_render_can_be_seen_denoised(box):
+    job = mlt.start(box, "path", spp=64, seed=1)
+    job.wait()
+    assert job.denoised_error is None
+    seen = job.denoised()
+    assert job.denoised_error < job.error
+    assert not np.array_equal(seen, job.image)
+    assert np.array_equal(job.result().image, job.image)
+
+
+def test_a_render_that_is_dropped_while_it_is_judged_ends(box):
+    job = mlt.start(box, "path", error=1e-4, seed=1, denoise=True)
+    job.wait(0.5)
+    core = job._job
+    del job
+    assert core.ended
+
+
+def test_with_few_samples_the_error_is_not_known(box):
+    result = mlt.start(box, "path", spp=8, seed=1, denoise=True).result()
+    assert "denoised_error" not in result.stats
+    assert result.error_map is None
+    assert not np.array_equal(result.image, result.layers["noisy"])
+
+
+def test_a_filter_that_fails_leaves_the_image(box, monkeypatch):
+    import pyoidn
+
+    def fail(*args, **kwargs):
+        raise RuntimeError("no device")
+
+    monkeypatch.setattr(pyoidn, "denoise", fail)
+    result = mlt.start(box, "path", spp=64, seed=1, denoise=True).result()
+    assert "Open Image Denoise: no device; the image is not denoised" in result.stats["warnings"]
+    assert np.array_equal(result.image, mlt.render(box, "path", spp=64, seed=1))
 
 
 def test_files_guide_the_filter(scene, noisy, capsys):

@@ -15,6 +15,7 @@ from ..rendering.needed import needed
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
+from ..rendering.summary import percent
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
 from .display import add_tonemap, exposure
 from .resuming import SAVED, resumed, to_come
@@ -33,10 +34,6 @@ HELP_HERE = {
 }
 
 
-# The layers that guide the denoiser.
-GUIDES = "albedo,sh_normal"
-
-
 def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
         add_flag(command, flag, HELP_HERE.get(name, ""))
@@ -52,15 +49,17 @@ def add_arguments(command) -> None:
     command.add_argument(
         "--fireflies",
         choices=("keep", "groups"),
+        default="keep",
         metavar="HOW",
         help="groups: leave out what one of the 16 independent groups alone has found in a pixel; "
-        "an .exr keeps the image as its layer unfiltered (default keep; with --denoise, groups)",
+        "an .exr keeps the image as its layer unfiltered (default keep)",
     )
     command.add_argument(
         "--denoise",
         action="store_true",
-        help="remove noise by Open Image Denoise; the filter is box, unless --filter names one; "
-        "an .exr keeps the image as its layer noisy",
+        help="remove noise by Open Image Denoise, as far as that lowers the error, which --error "
+        "then means; the filter is box, unless --filter names one; an .exr keeps the image as its "
+        "layer noisy",
     )
 
 
@@ -86,9 +85,7 @@ def start(args, signals: Signals) -> Job:
     options = RenderOptions(
         **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
     )
-    options.fireflies = args.fireflies or ("groups" if args.denoise else "keep")
-    if args.denoise and options.aovs is None:
-        options.aovs = GUIDES
+    options.fireflies, options.denoise = args.fireflies, args.denoise
     if args.resume:
         job = signals.abandonable(lambda: resumed(args, options))._start()
         if not args.quiet:
@@ -163,7 +160,15 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
         while not job.wait(0.1):
             if signals.caught:
                 job.cancel()
-            show(job.progress, {"spp": f"{job.stats['spp_done']:.4g}"})
+            show(job.progress, seen(job))
+
+
+def seen(job: Job) -> dict[str, str]:
+    """What is to be said of a render that runs."""
+    known = {"spp": f"{job.samples:.4g}"}
+    if job.denoised_error is not None:
+        known["error"] = percent(job.denoised_error)
+    return known
 
 
 def render_bands(args, result: Result, job: Job, signals: Signals) -> None:
@@ -178,11 +183,6 @@ def render_bands(args, result: Result, job: Job, signals: Signals) -> None:
 def save(args, result: Result) -> tuple[list[str], bool]:
     """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
     everything is where it was asked for."""
-    if args.denoise:
-        try:
-            result = result.denoise()
-        except _core.Error as error:
-            say(f"{error}; the image is saved as it was rendered")
     files = [result._save(path, exposure(args), args.tonemap) for path in args.output]
     images = [path for path, _ in files if path]
     if args.stats:

@@ -9,9 +9,9 @@ import numpy as np
 
 from .. import _core
 from ..algorithms.integrator import IntegratorLike
+from ..pictures.halves import target_luminance
 from ..rendering.result import Result
 from ..rendering.start import start
-from .metrics import target_luminance
 
 #: In the warnings of a render whose error is carried by few pixels, and of one whose brightness is
 #: not known.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from .._extras import import_extra
 from ..images import read_image
+from ..pictures.halves import target_luminance
 
 if TYPE_CHECKING:
     import numpy as np
@@ -66,13 +67,6 @@ def compare(
     if perceptual is not None:
         metrics["flip"] = perceptual
     return {name: float(value) for name, value in metrics.items()}
-
-
-def target_luminance(image: np.ndarray) -> np.ndarray:
-    """What Metropolis samples: the mean of the luminance and of the mean of R, G, B."""
-    import numpy as np
-
-    return image @ (0.5 * np.array([0.2126, 0.7152, 0.0722]) + 0.5 / 3)
 
 
 def image_pair(image, reference) -> tuple[np.ndarray, np.ndarray]:

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 from .. import _core
 from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike
+from ..pictures.halves import target_luminance
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import start
 from ._arviz import import_arviz
-from .metrics import target_luminance
 
 if TYPE_CHECKING:
     import numpy as np

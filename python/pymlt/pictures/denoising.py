@@ -6,9 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from .. import _core
 from .._extras import import_extra
+from .halves import Mixture, Pair, best_mixture
 from .tonemapping import split_alpha
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -97,21 +100,40 @@ def denoise_with_layers(
 ) -> Denoised:
     """The same for what a file or a render holds: its layers guide the filter, or what is given.
 
-    The image itself becomes the layer "noisy". Its errors (layers "error", "error_block") are left
-    out, since those of the denoised image are not known; `metadata` say that it is one.
+    The image itself becomes the layer "noisy"; `metadata` say that it was denoised.
     """
-    from importlib.metadata import version
-
     chosen: dict[str, ArrayLike] = {**guides_of(layers)}
     chosen |= {k: g for k, g in (("albedo", albedo), ("normal", normal)) if g is not None}
     if "albedo" not in chosen and normal is None:
         chosen.clear()  # a layer of normals alone does not help
     clean = denoise(image, albedo=chosen.get("albedo"), normal=chosen.get("normal"))
-    kept = {name: layer for name, layer in layers.items() if not name.startswith("error")}
+    return Denoised(clean, layers | {"noisy": image}, metadata | {"denoised": how(chosen)})
+
+
+def denoise_halves(
+    image: np.ndarray, raw: Pair, robust: Pair, layers: dict[str, np.ndarray]
+) -> Mixture:
+    """A render, mixed with what the filter makes of its halves, and how wrong that is.
+
+    raw, robust
+        its halves as they are, and without fireflies.
+    layers
+        its "error", and what guides the filter.
+    """
+    guides = guides_of(layers)
+
+    def filtered(pair: Pair) -> Pair:
+        return Pair(*(denoise(half, **guides) for half in pair))
+
+    return best_mixture(image, layers["error"], raw, robust, (filtered(raw), filtered(robust)))
+
+
+def how(guides: Iterable[str]) -> str:
+    """What a file says about its denoising."""
+    from importlib.metadata import version
+
     how = f"Open Image Denoise, pyoidn {version('pyoidn')}"
-    if chosen:
-        how += f", guided by {' and '.join(sorted(chosen))}"
-    return Denoised(clean, kept | {"noisy": image}, metadata | {"denoised": how})
+    return how + (f", guided by {' and '.join(sorted(guides))}" if guides else "")
 
 
 def _guide(name: str, guide: ArrayLike, shape: tuple[int, ...]) -> np.ndarray:

@@ -75,7 +75,9 @@ def share_of_time(seconds: float | None, bands: list[Band]) -> float | None:
 
 def add_bands(result: Result, job: Job, bands: list[Band], wait: Callable[[Job], object]) -> None:
     """Renders a layer for each band as `job` was rendered; none after one that was cancelled."""
-    options = replace(job._options, aovs="")
+    options = replace(job._options, aovs="", denoise=False)
+    if job.denoised_error is not None and options.error is not None:
+        options = replace(options, error=None, spp=job.samples)
     known = list(result.stats["warnings"])
     for band in bands:
         part = Job(job._scene.with_wavelengths(band), job._integrator, options)

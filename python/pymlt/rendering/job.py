@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
 import json
 import math
 import os
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from .. import _core
 from ..pictures.tonemapping import Exposure
+from .denoised import GUIDES, Denoising
 from .notebook import show
 from .options import RenderOptions, integer, number, relative_error, seconds
 from .progress import progress_bar
@@ -44,9 +46,12 @@ class Job:
             options.seed,
             options.threads,
             _core.CheckpointFile(options.checkpoint or "", options.every, options.overwrite),
-            options.aovs,
+            GUIDES if options.denoise and options.aovs is None else options.aovs,
             options.alpha,
         )
+        self._denoising = Denoising(self._job) if options.denoise else None
+        if self._denoising is not None and options.error is not None:
+            self._denoising.judge(options.error)
 
     def _start(self) -> Job:
         if self._cluster is not None:
@@ -55,6 +60,8 @@ class Job:
             self._job.attach(ClusterExecutor(self._scene, self._integrator, self._cluster))
         self._job.start()
         _running.add(self)
+        # No thread of the job may hold the last reference to it.
+        weakref.finalize(self, _end, self._job).atexit = False
         return self
 
     @property
@@ -84,6 +91,24 @@ class Job:
         It costs about as much as making the image of each group.
         """
         return self._job.relative_error()
+
+    def denoised(self) -> NDArray[np.float32]:
+        """The image so far without most of its noise, like that of a result with `denoise=True`.
+
+        Raises UsageError without the extra `denoise`.
+        """
+        self._denoising = self._denoising or Denoising(self._job)
+        return self._denoising.image(self._job.image(), self._job.layers())[0]
+
+    @property
+    def _seen(self) -> NDArray[np.float32]:
+        """What is to be shown of it while it runs."""
+        return self.denoised() if self._options.denoise else self.image
+
+    @property
+    def denoised_error(self) -> float | None:
+        """The relative error of the denoised image when it was last made; None if unknown."""
+        return None if self._denoising is None else self._denoising.error
 
     @property
     def error_map(self) -> NDArray[np.float32] | None:
@@ -209,7 +234,10 @@ class Job:
             removed = 1 - float(image.mean(dtype=float)) / seen if seen > 0 else 0.0
             stats["fireflies_removed"] = removed
             metadata["fireflies"] = f"groups: {100 * removed:.2g} % of the light is removed"
-        return Result(image, stats, settings, layers, metadata, self._scene.half)
+        result = Result(image, stats, settings, layers, metadata, self._scene.half)
+        if self._denoising is None or not self._options.denoise:
+            return result
+        return self._denoising.denoised(result)
 
     def show(self, *, interval: float = 1, exposure: Exposure = 0) -> None:
         """Show the image in a notebook, and renew it each `interval` seconds until the render ends.
@@ -231,6 +259,11 @@ os.register_at_fork(after_in_child=_running.clear)
 def _cancel_all() -> None:
     """No thread may outlive the interpreter."""
     for job in list(_running):
-        job.cancel()
-        while not job.ended:
-            job._job.wait(1.0)
+        _end(job._job)
+
+
+def _end(job: _core.Job) -> None:
+    job.cancel()
+    while not job.ended:
+        with contextlib.suppress(_core.Error):
+            job.wait(1.0)

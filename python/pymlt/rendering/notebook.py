@@ -19,7 +19,7 @@ class Picture:
     exposure: Exposure
 
     def _repr_html_(self) -> str:
-        return figure(self.job.image, repr(self), self.exposure)
+        return figure(self.job._seen, repr(self), self.exposure)
 
     def __repr__(self) -> str:
         stats = self.job.stats

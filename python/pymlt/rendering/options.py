@@ -50,6 +50,12 @@ class RenderOptions:
         light that is found rarely: the image is darker, by the share `stats["fireflies_removed"]`,
         which vanishes as the render goes on. The layer "unfiltered" has the image as it was.
         "keep" leaves it so.
+    denoise
+        whether the result's image is denoised by Open Image Denoise, as far as that lowers its
+        error (see docs/denoising.md); `error` is then that of the denoised image, which
+        `stats["denoised_error"]` and the layer "denoised_error" tell. The layer "noisy" has the
+        image as it was rendered. Without `aovs`, "albedo" and "sh_normal" guide the filter. Needs
+        the extra `denoise`, and pixels whose noise is independent: the filter "box".
     cluster
         where to render: a `dask.distributed` client or cluster, the address of one
         ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
@@ -67,6 +73,7 @@ class RenderOptions:
     aovs: str | Sequence[str] | None = None
     alpha: bool = False
     fireflies: str = "keep"
+    denoise: bool = False
     cluster: Any = None
 
     def __post_init__(self):

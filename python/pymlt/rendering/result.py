@@ -42,9 +42,10 @@ class Result:
     def error_map(self) -> NDArray[np.float32] | None:
         """The standard error of each pixel, of the shape of `image`, or None if it is not known.
 
-        It is estimated from the spread of independent groups, and there must be two of them.
+        It is estimated from the spread of independent groups, and there must be two of them; for a
+        denoised image from what the filter makes of two halves of them.
         """
-        return self.layers.get("error")
+        return self.layers.get("denoised_error" if "noisy" in self.layers else "error")
 
     @property
     def block_error(self) -> NDArray[np.float32] | None:
@@ -52,7 +53,7 @@ class Result:
 
         float32, (rows, columns, 3); the blocks at the right and the lower border may be smaller.
         """
-        spread = self.layers.get("error_block")
+        spread = None if "noisy" in self.layers else self.layers.get("error_block")
         return None if spread is None else spread[::8, ::8]
 
     @property
@@ -82,8 +83,9 @@ class Result:
             of what each pixel sees first, float, (height, width, 3), to guide the filter; see
             `pymlt.denoise`. None: the layers "albedo" and "normal", if there are such.
 
-        The image as it was is the layer "noisy"; the errors are left out. `merge` refuses the
-        result. Raises UsageError without the extra `denoise`, and for arrays of other shapes.
+        The image as it was is the layer "noisy"; how wrong the result is, is not known: that tells
+        a render with `denoise=True`. `merge` refuses it. Raises UsageError without the extra
+        `denoise`, and for arrays of other shapes.
         """
         image, layers, metadata = denoise_with_layers(
             self.image, self.layers, self.metadata, albedo=albedo, normal=normal

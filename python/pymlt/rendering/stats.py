@@ -69,6 +69,7 @@ class Stats(TypedDict):
     ended_by: NotRequired[str]
     groups: NotRequired[int]
     error: NotRequired[float | None]
+    denoised_error: NotRequired[float]  #: of the denoised image, with `denoise=True`
     block_error: NotRequired[float | None]
     pixels_carrying_error: NotRequired[float | None]
     disagreements: NotRequired[list[Disagreement]]

@@ -18,7 +18,14 @@ def summary(algorithm: str, image: np.ndarray, stats: Stats) -> str:
         done += f" in {seconds['bootstrap'] + seconds['render']:.1f} s"
     error = stats.get("error")
     if error is not None:
-        done += f", error {100 * error:{'.0f' if error >= 0.1 else '.2g'}} %"
+        done += f", error {percent(error)}"
     elif stats.get("ended_by"):
         done += ", too few samples to know the error" if image.any() else ", no light and no error"
+    if "denoised_error" in stats:
+        done += f", denoised {percent(stats['denoised_error'])}"
     return done
+
+
+def percent(error: float) -> str:
+    """A relative error as people read it."""
+    return f"{100 * error:{'.0f' if error >= 0.1 else '.2g'}} %"

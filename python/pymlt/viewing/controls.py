@@ -108,9 +108,9 @@ class Controls:
         return self._share.value / 100 if self._other.value != NONE else None
 
     def show_status(self) -> None:
-        live = self._session.live
+        live, clean = self._session.live, bool(self._denoise.value)
         rows = [
-            [escape(name), f"{job.samples:.4g} spp", self._errors.figure(job)]
+            [escape(name), f"{job.samples:.4g} spp", self._errors.figure(job, clean)]
             for name, job in zip(self._names(), live.jobs, strict=False)
         ] or [["first pictures", "", ""]]
         state = "running" if live.running else "ended"
@@ -192,11 +192,16 @@ class ErrorFigures:
     def __init__(self) -> None:
         self._known: WeakKeyDictionary[Job, tuple[float, str]] = WeakKeyDictionary()
 
-    def figure(self, job: Job) -> str:
-        """The error with its unit; "" before it is known."""
+    def figure(self, job: Job, denoised: bool) -> str:
+        """The error with its unit, of what is seen; "" before it is known."""
+        if denoised:
+            return self._text(job.denoised_error)
         samples, text = self._known.get(job, (0.0, ""))
         if job.samples > 1.2 * samples:
-            error = job.error
-            text = f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %" if error else ""
+            text = self._text(job.error)
             self._known[job] = job.samples, text
         return text
+
+    @staticmethod
+    def _text(error: float | None) -> str:
+        return f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %" if error else ""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from time import monotonic
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
-from ..pictures.denoising import denoise
+from ..rendering.job import Job
 from ..rendering.start import start
 from . import shown
 
@@ -12,6 +14,8 @@ if TYPE_CHECKING:
     import numpy as np
 
 QUALITY = 90  #: of JPEG, of 100
+PATIENCE = 1.0  #: seconds between two denoised pictures of a render, at the least
+REST = 4.0  #: times as long as one has taken, that the denoiser rests
 
 
 class Pictures:
@@ -20,6 +24,7 @@ class Pictures:
     def __init__(self, session: Any):
         self._session = session
         self._layers: dict[str, np.ndarray] = {}
+        self._denoised: WeakKeyDictionary[Job, tuple[float, np.ndarray]] = WeakKeyDictionary()
 
     def forget(self) -> None:
         """What the camera sees has changed."""
@@ -48,8 +53,19 @@ class Pictures:
             if error is not None:
                 return shown.error_picture(image, error)
         if look.denoise:
-            image = denoise(image)
+            image = self._without_noise(live.jobs[index])
         return shown.picture(image, look.exposure, look.curve)
+
+    def _without_noise(self, job: Job) -> np.ndarray:
+        """Denoised anew now and then, and at the end."""
+        due, image = self._denoised.get(job, (0.0, None))
+        begun = monotonic()
+        if image is None or begun >= due or (job.ended and due < float("inf")):
+            ended = job.ended
+            image = job.denoised()
+            rest = max(PATIENCE, REST * (monotonic() - begun))
+            self._denoised[job] = float("inf") if ended else monotonic() + rest, image
+        return image
 
     @property
     def _size(self) -> tuple[int, int]:

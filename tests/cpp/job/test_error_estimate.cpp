@@ -1,5 +1,7 @@
 #include "job/error_estimate.h"
 
+#include "job/given_rendering.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,35 +18,6 @@ Image plain(float left, float right) {
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = x < 8 ? left : right;
   return image;
 }
-
-/// A render whose groups are these, of equal weight.
-class Given : public Rendering {
- public:
-  Given(std::vector<Image> groups, Image common, bool share_sequence = false)
-      : Rendering(nullptr, 1),
-        groups_(std::move(groups)),
-        common_(std::move(common)),
-        share_sequence_(share_sequence) {}
-
-  GroupImage group(int index) const override {
-    if (index >= static_cast<int>(groups_.size())) return {};
-    return {groups_[index], 1};
-  }
-  Image common_error() const override { return common_; }
-  bool groups_share_sequence() const override { return share_sequence_; }
-
-  Memory memory(double) const override { return {}; }
-  void run_unit(uint64_t) override {}
-  Image image() const override { return {}; }
-  void add_stats(Stats&) const override {}
-  std::string save(const Task&, Content) const override { return {}; }
-  void load(const std::string&) override {}
-
- private:
-  std::vector<Image> groups_;
-  Image common_;
-  bool share_sequence_;
-};
 
 /// Three groups that see 1, 2 and 3 on the left and 4 on the right: sqrt(1 / 3) is the standard
 /// error of 2.

@@ -1,0 +1,23 @@
+// Two halves of a render, which share no group: what a filter makes of one of them is compared with
+// the other, which knows nothing of the filter's errors.
+#pragma once
+
+#include "rendering/integrator.h"
+
+#include <optional>
+
+namespace mlt {
+
+struct Half {
+  Image image;   ///< An estimate of the image, of twice its variance.
+  Image robust;  ///< An estimate without fireflies (see without_fireflies).
+};
+
+struct Halves {
+  Half first, second;
+};
+
+/// Nothing while the rendering or one of its parts has fewer than four groups.
+std::optional<Halves> halves(const Rendering& rendering);
+
+}  // namespace mlt
