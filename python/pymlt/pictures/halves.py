@@ -182,8 +182,8 @@ class _Advice:
         """An image, with its error by the mixture of its halves, and the share k."""
         import numpy as np
 
-        biases = self._biases(pair, self.raw, kept)
-        squares = np.maximum(_smoothed(biases), 0) + _smoothed(pair.apart)
+        biases = self._smoothed(self._biases(pair, self.raw, kept))
+        squares = np.maximum(biases, 0) + self._smoothed(pair.apart)
         grey, raw = pair.luminance, self.raw.luminance
         terms = [self._biases(grey, raw, kept), grey.apart]
         bias, spread = (term[..., 0] / self.scale for term in terms)
@@ -199,6 +199,15 @@ class _Advice:
         """The squared bias of each channel, with what e(f, f) lacks."""
         squares = (f.first - raw.first) * (f.second - raw.second)
         return squares + ((1 - 2 * kept) * self.unlike)[..., None] * self._bounded(raw.apart)
+
+    def _smoothed(self, squares: np.ndarray) -> np.ndarray:
+        """Relative to the brightness of each pixel, averaged over its neighbourhood."""
+        import numpy as np
+
+        scale = self.scale[..., None]
+        relative = np.clip(squares / scale, -MOST, MOST)
+        means = [smooth(channel, SIGMA) for channel in np.moveaxis(relative, 2, 0)]
+        return scale * np.stack(means, axis=2)
 
     def _bounded(self, squares: np.ndarray) -> np.ndarray:
         import numpy as np
@@ -234,12 +243,6 @@ def _gaussian(sigma: float) -> np.ndarray:
     radius = int(np.ceil(3 * sigma))
     weights = np.exp(-0.5 * (np.arange(-radius, radius + 1) / sigma) ** 2)
     return (weights / weights.sum()).astype(np.float32)
-
-
-def _smoothed(channels: np.ndarray) -> np.ndarray:
-    import numpy as np
-
-    return np.stack([smooth(channel, SIGMA) for channel in np.moveaxis(channels, 2, 0)], axis=2)
 
 
 def _grey(values: np.ndarray) -> np.ndarray:
