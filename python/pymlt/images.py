@@ -122,6 +122,7 @@ def write_image(
     *,
     exposure: Exposure = 0,
     tonemap: str = "srgb",
+    bits: int | None = None,
     half: bool = False,
     metadata: dict[str, str] | None = None,
 ) -> None:
@@ -135,11 +136,14 @@ def write_image(
     exposure, tonemap
         for pictures, which are sRGB-encoded: stops by which they are brightened ("auto": as suits
         the image), and the curve, as `pymlt.tonemap` has them.
+    bits
+        for pictures, of each sample: 8 (usual) or 16 in .png, 8 in .jpg, 16 (usual), 8 or 32 in
+        .tif, where 32 are floats of linear light, without exposure and curve.
     half, metadata
         for .exr: 16-bit samples, and texts for the header.
 
-    Raises UsageError for another shape, type, curve or extension, FileError if the file cannot be
-    written.
+    Raises UsageError for another shape, type, curve, extension or number of bits, FileError if the
+    file cannot be written.
     """
     import numpy as np
 
@@ -153,4 +157,4 @@ def write_image(
     name = os.fspath(path)
     if not name.lower().endswith(".exr") and (bad := int(np.isnan(pixels).sum())):
         warnings.warn(f"{path}: {bad} samples are not numbers and become 0", stacklevel=2)
-    OutputFile(name, pixels, {}, metadata or {}, half, exposure, tonemap).write()
+    OutputFile(name, pixels, {}, metadata or {}, half, exposure, tonemap, bits).write()

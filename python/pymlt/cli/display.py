@@ -18,6 +18,17 @@ def add_tonemap(command: Parser) -> None:
     )
 
 
+def add_bits(command: Parser) -> None:
+    command.add_argument(
+        "--bits",
+        metavar="N",
+        type=int,
+        choices=(8, 16, 32),
+        help="bits of each sample of pictures: PNG 8 or 16, JPEG 8, TIFF 16, 8 or 32 (linear "
+        "floats, without exposure and curve); by default the first",
+    )
+
+
 def add_display_flags(command: Parser) -> None:
     add_flag(command, FLAGS["exposure"])
     add_tonemap(command)

@@ -16,7 +16,7 @@ from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
-from .display import add_tonemap, exposure
+from .display import add_bits, add_tonemap, exposure
 from .resuming import SAVED, resumed, to_come
 from .signals import Signals
 
@@ -41,6 +41,7 @@ def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
         add_flag(command, flag, HELP_HERE.get(name, ""))
     add_tonemap(command)
+    add_bits(command)
     command.add_argument(
         "--bands",
         type=reader(parse_bands),
@@ -106,7 +107,7 @@ def start(args, signals: Signals) -> Job:
 def run(args) -> int:
     check(args)
     for path in args.output:
-        check_writable(path)
+        check_writable(path, args.bits)
     if args.stats:
         _core.check_file_writable(args.stats)
     import numpy  # noqa: F401 (what writing needs is there before the work begins)
@@ -183,7 +184,7 @@ def save(args, result: Result) -> tuple[list[str], bool]:
             result = result.denoise()
         except _core.Error as error:
             say(f"{error}; the image is saved as it was rendered")
-    files = [result._save(path, exposure(args), args.tonemap) for path in args.output]
+    files = [result._save(path, exposure(args), args.tonemap, args.bits) for path in args.output]
     images = [path for path, _ in files if path]
     if args.stats:
         files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))

@@ -40,11 +40,7 @@ def tonemap(
 
     check_tonemap(curve)
     pixels = np.asarray(image, dtype=np.float64)
-    if pixels.ndim not in (2, 3):
-        raise _core.UsageError(
-            "an image should have the shape (height, width, channels) or (height, width)"
-        )
-    light, alpha = split_alpha(pixels if pixels.ndim == 3 else pixels[..., None])
+    light, alpha = split_alpha(with_channels(pixels))
     largest = float(np.finfo(np.float32).max)
     light = light * 2.0 ** stops_of(exposure, pixels)
     light = np.nan_to_num(light, nan=0, posinf=largest).clip(0, largest)
@@ -69,6 +65,15 @@ def check_tonemap(curve: str) -> str:
         near = _core.suggestion(curve, list(CURVES))
         raise _core.UsageError(f"unknown tone curve {curve!r}{near or f'; use {_names()}'}")
     return curve
+
+
+def with_channels(pixels: np.ndarray) -> np.ndarray:
+    """An image of shape (height, width, channels). Raises UsageError for what is none."""
+    if pixels.ndim not in (2, 3):
+        raise _core.UsageError(
+            "an image should have the shape (height, width, channels) or (height, width)"
+        )
+    return pixels if pixels.ndim == 3 else pixels[..., None]
 
 
 def split_alpha(pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
