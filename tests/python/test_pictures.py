@@ -14,7 +14,7 @@ from pymlt import cli
 from pymlt.pictures.tonemapping import stops_of
 from pymlt.rendering.notebook import Picture
 
-CURVES = ["srgb", "reinhard", "filmic"]
+CURVES = ["srgb", "reinhard", "filmic", "agx", "aces2"]
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +83,10 @@ def test_samples_that_are_no_numbers_are_black():
     ("arguments", "message"),
     [
         ({"curve": "filmik"}, "did you mean 'filmic'"),
-        ({"curve": "x"}, "srgb, reinhard, filmic"),
+        (
+            {"curve": "xyzxyz"},
+            "valid are: srgb, reinhard, filmic, agx, aces2, ocio:DISPLAY/VIEW@FILE",
+        ),
         ({"exposure": 129}, "-128 and 128"),
         ({"exposure": np.nan}, "-128 and 128"),
         ({"exposure": "bright"}, "'auto'"),

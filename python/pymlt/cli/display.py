@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from ..pictures.tonemapping import CURVES, Exposure, check_tonemap
+from ..pictures.tonemapping import ANY_VIEW, CURVES, Exposure, check_tonemap
 from .common import FLAGS, Parser, add_flag, reader
 
-TONEMAP_HELP = f"tone curve of pictures (PNG, JPEG, TIFF): {', '.join(CURVES)} (srgb: clip at 1)"
+TONEMAP_HELP = (
+    f"tone curve of pictures (PNG, JPEG, TIFF): {', '.join(CURVES)} (srgb: clip at 1), or "
+    f"{ANY_VIEW}, a view of OpenColorIO"
+)
 
 
 def add_tonemap(command: Parser) -> None:

@@ -105,7 +105,7 @@ class Result:
         by it; other files show the image over black. An .exr holds the layers too; beside NAME.png,
         NAME.techniques.png shows the techniques, if there are any, for which it needs the extra
         `plots`. `exposure` brightens pictures (.png, .jpg, .tif), in stops, or "auto" as suits the
-        image; `tonemap` names their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`).
+        image; `tonemap` names their curve (see `pymlt.tonemap`).
         `bits` of each sample of a picture are 8 or 16, or 32 for linear floats in a .tif; see
         `pymlt.write_image`. Raises FileError if it cannot be written, UsageError for an unknown
         curve or extension, and for bits that the format does not have.
