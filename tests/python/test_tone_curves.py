@@ -7,6 +7,7 @@ import pytest
 
 import pymlt as mlt
 from pymlt import cli
+from pymlt.pictures.ocio import _views
 from pymlt.pictures.tonemapping import encode_srgb
 
 # What Blender 5.0's view AgX shows on its display sRGB, as codes from 0 to 1.
@@ -141,6 +142,15 @@ def test_a_configuration_that_does_not_say_what_light_is_is_refused(config, tmp_
     closed.write_text(CONFIG.replace("aces_interchange: ACES2065-1, ", ""))
     with pytest.raises(mlt.UsageError, match=r"closed.ocio: .*interchange"):
         mlt.tonemap(RED, f"ocio:Cinema/As it is@{closed}")
+
+
+def test_an_old_openimageio_is_refused(config, monkeypatch):
+    oiio = pytest.importorskip("OpenImageIO")
+    monkeypatch.setattr(oiio, "VERSION", 30119)
+    _views.cache_clear()
+    for curve in "aces2", f"ocio:Wide@{config}":
+        with pytest.raises(mlt.UsageError, match=r"install 'OpenImageIO>=3\.2'"):
+            mlt.tonemap(RED, curve)
 
 
 def test_the_command_line_takes_views(scene, config):

@@ -5,6 +5,9 @@ from __future__ import annotations
 from ..pictures.tonemapping import ANY_VIEW, CURVES, Exposure, check_tonemap
 from .common import FLAGS, Parser, add_flag, reader
 
+EXPOSURE_HELP = (
+    "brighten pictures (PNG, JPEG, TIFF) by this number of stops; auto: as suits the image"
+)
 TONEMAP_HELP = (
     f"tone curve of pictures (PNG, JPEG, TIFF): {', '.join(CURVES)} (srgb: clip at 1), or "
     f"{ANY_VIEW}, a view of OpenColorIO"
@@ -33,7 +36,7 @@ def add_bits(command: Parser) -> None:
 
 
 def add_display_flags(command: Parser) -> None:
-    add_flag(command, FLAGS["exposure"])
+    add_flag(command, FLAGS["exposure"], EXPOSURE_HELP)
     add_tonemap(command)
 
 

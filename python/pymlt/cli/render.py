@@ -16,7 +16,7 @@ from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
-from .display import add_bits, add_tonemap, exposure
+from .display import EXPOSURE_HELP, add_bits, add_tonemap, exposure
 from .resuming import SAVED, resumed, to_come
 from .signals import Signals
 
@@ -28,8 +28,7 @@ HELP_HERE = {
     "scene": "Mitsuba XML, glTF 2.0 or pbrt file, a mesh (.ply, .obj, .stl), or "
     "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
-    "exposure": "brighten pictures (PNG, JPEG, TIFF) by this number of stops; auto: as suits the "
-    "image",
+    "exposure": EXPOSURE_HELP,
 }
 
 

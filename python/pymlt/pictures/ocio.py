@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
 PREFIX = "ocio:"
 BUILT_IN = "ocio://default"
+OLDEST = 30200  #: version of OpenImageIO; before 3.2 it takes the light of some files for another
 ACES2 = f"{PREFIX}sRGB - Display/ACES 2.0 - SDR 100 nits (Rec.709)@{BUILT_IN}"
 
 
@@ -28,7 +29,7 @@ def view_of(curve: str) -> View:
     """What "ocio:DISPLAY/VIEW@FILE" means; without a display the default one.
 
     Without a file it is that of $OCIO, or else OpenColorIO's own configuration for ACES. Raises
-    UsageError for a file that cannot be read, and for an unknown view.
+    UsageError for a file that cannot be read, for an unknown view, and with an old OpenImageIO.
     """
     name, _, file = curve.removeprefix(PREFIX).partition("@")
     config = os.path.expanduser(file or os.environ.get("OCIO") or BUILT_IN)
@@ -44,6 +45,11 @@ def _views(config: str) -> dict[str, tuple[str, str]]:
     """Displays and views, by all names that they have here."""
     import OpenImageIO
 
+    if OpenImageIO.VERSION < OLDEST:
+        raise _core.UsageError(
+            "aces2 and views of OpenColorIO need `pip install 'OpenImageIO>=3.2'`, but here is "
+            f"{OpenImageIO.VERSION_STRING}"
+        )
     read = OpenImageIO.ColorConfig(config)
     if problem := read.geterror():
         raise _core.UsageError(f"{problem}; use an OpenColorIO configuration such as config.ocio")
