@@ -52,7 +52,7 @@ def mix_layers(
     given = {name: _checked(name, factor) for name, factor in factors.items()}
     changed = {name: factor for name, factor in given.items() if (factor != 1).any()}
     scaled = {name: light * changed.get(name, 1.0) for name, light in groups.items()}
-    kept = {name: x for name, x in layers.items() if not name.startswith((*LIT, PREFIX))}
+    kept = {name: x for name, x in layers.items() if not name.startswith(LIT)}
     kept |= {f"{PREFIX}{name}": light.astype(np.float32) for name, light in scaled.items()}
     texts = {name: text for name, text in metadata.items() if name not in CHANGED}
     if not changed:
