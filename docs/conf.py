@@ -85,7 +85,7 @@ TOPICS = {
         "render start resume render_progressive render_bands replay Job Replay",
         ["rendering.cluster"],
     ),
-    "results": ("Results", "Result Groups Technique compare comparison_figure merge", []),
+    "results": ("Results", "Result Groups Technique compare comparison_figure merge mix", []),
     "images": (
         "Images and their files",
         "read_image write_image read_metadata tonemap denoise",

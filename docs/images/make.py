@@ -6,7 +6,7 @@ samples-and-chains  what independent samples and chains show of an image
 clamped       glasses by path tracing, by chains alone, and by chains beside clamped samples
 strategies    the techniques of bidirectional path tracing
 manifolds     light through water without and with manifold sampling
-tone-curves   one render by the three tone curves
+tone-curves   one render by each tone curve
 comparison    what pymlt compare --picture draws
 race          what pymlt race -o race.png draws
 """
@@ -18,6 +18,7 @@ import numpy as np
 
 import pymlt as mlt
 from pymlt.pictures.techniques import technique_figure
+from pymlt.pictures.tonemapping import CURVES
 from pymlt.race.cpu_time import render_for
 
 HERE = Path(__file__).parent
@@ -70,7 +71,7 @@ def manifolds():
 
 def tone_curves():
     image = render("glass_ball", mlt.BDPT(max_depth=8), 20, (200, 200))
-    shown = [mlt.tonemap(image, curve, exposure=1) for curve in ("srgb", "reinhard", "filmic")]
+    shown = [mlt.tonemap(image, curve, exposure=3) for curve in CURVES]
     mlt.write_image(HERE / "tone-curves.png", np.concatenate(shown, axis=1))
 
 

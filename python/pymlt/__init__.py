@@ -45,6 +45,7 @@ from .pictures.techniques import Technique
 from .pictures.tonemapping import tonemap
 from .rendering.job import Job
 from .rendering.merging import merge
+from .rendering.mixing import mix
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result
 from .rendering.start import (
@@ -105,6 +106,7 @@ __all__ = [
     "load_file",
     "load_string",
     "merge",
+    "mix",
     "race",
     "read_image",
     "read_metadata",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .pictures.output import OutputFile
-from .pictures.tonemapping import Exposure, split_alpha
+from .pictures.tonemapping import Exposure, decode_srgb, split_alpha
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,6 +29,7 @@ def read_image(path: str | os.PathLike[str], layer: str = "") -> NDArray[np.floa
 
 
 def _read_with_openimageio(path: str) -> np.ndarray:
+    import numpy as np
     import OpenImageIO
 
     file = OpenImageIO.ImageInput.open(path)
@@ -46,17 +47,10 @@ def _read_with_openimageio(path: str) -> np.ndarray:
     finally:
         file.close()
     pixels = pixels[..., None] if pixels.ndim == 2 else pixels
-    return _decode_srgb(pixels) if is_integer else pixels
-
-
-def _decode_srgb(pixels: np.ndarray) -> np.ndarray:
-    """IEC 61966-2-1; a second or fourth channel is alpha and not encoded."""
-    import numpy as np
-
-    linear = np.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
-    if pixels.shape[2] in (2, 4):
-        linear[..., -1] = pixels[..., -1]
-    return linear.astype(np.float32)
+    if is_integer:
+        colours, alpha = split_alpha(pixels)
+        pixels = np.concatenate([decode_srgb(colours), alpha], axis=2, dtype=np.float32)
+    return pixels
 
 
 def layer_names(path: str | os.PathLike[str]) -> list[str]:
@@ -122,6 +116,7 @@ def write_image(
     *,
     exposure: Exposure = 0,
     tonemap: str = "srgb",
+    bits: int | None = None,
     half: bool = False,
     metadata: dict[str, str] | None = None,
 ) -> None:
@@ -135,11 +130,14 @@ def write_image(
     exposure, tonemap
         for pictures, which are sRGB-encoded: stops by which they are brightened ("auto": as suits
         the image), and the curve, as `pymlt.tonemap` has them.
+    bits
+        for pictures, of each sample: 8 (usual) or 16 in .png, 8 in .jpg, 16 (usual), 8 or 32 in
+        .tif, where 32 are floats of linear light, without exposure and curve.
     half, metadata
         for .exr: 16-bit samples, and texts for the header.
 
-    Raises UsageError for another shape, type, curve or extension, FileError if the file cannot be
-    written.
+    Raises UsageError for another shape, type, curve, extension or number of bits, FileError if the
+    file cannot be written.
     """
     import numpy as np
 
@@ -153,4 +151,4 @@ def write_image(
     name = os.fspath(path)
     if not name.lower().endswith(".exr") and (bad := int(np.isnan(pixels).sum())):
         warnings.warn(f"{path}: {bad} samples are not numbers and become 0", stacklevel=2)
-    OutputFile(name, pixels, {}, metadata or {}, half, exposure, tonemap).write()
+    OutputFile(name, pixels, {}, metadata or {}, half, exposure, tonemap, bits).write()

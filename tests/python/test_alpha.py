@@ -174,8 +174,9 @@ def test_exr_files_have_colours_multiplied_by_alpha(half_covered, tmp_path):
 
 @pytest.mark.parametrize("curve", ["srgb", "reinhard"])
 @pytest.mark.parametrize("exposure", [0, -1])
-def test_png_files_have_colours_that_are_not(half_covered, tmp_path, curve, exposure):
-    half_covered.save(tmp_path / "card.png", exposure, tonemap=curve)
+@pytest.mark.parametrize("bits", [8, 16])
+def test_png_files_have_colours_that_are_not(half_covered, tmp_path, curve, exposure, bits):
+    half_covered.save(tmp_path / "card.png", exposure, tonemap=curve, bits=bits)
     found = mlt.read_image(tmp_path / "card.png")
     np.testing.assert_allclose(found[..., 3], by_rows(ROWS), atol=0.5 / 255)
     shown = mlt.tonemap(LIGHT[None, None], curve, exposure=exposure)[0, 0]

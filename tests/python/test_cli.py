@@ -232,7 +232,8 @@ def test_both_programs_have_the_same_flags():
         set(re.findall(r"(?<![\w-])--?[a-zA-Z]+", run(command, "--help").stdout))
         for command in ([*PYMLT, "render"], [*binary])
     ]
-    assert flags[0] - flags[1] == {"--bands", "--cluster", "--denoise", "--fireflies", "--tonemap"}
+    own = {"--bands", "--bits", "--cluster", "--denoise", "--fireflies", "--tonemap"}
+    assert flags[0] - flags[1] == own
     assert flags[1] - flags[0] == {"--version"}
 
 

@@ -14,7 +14,7 @@ from pymlt import cli
 from pymlt.pictures.tonemapping import stops_of
 from pymlt.rendering.notebook import Picture
 
-CURVES = ["srgb", "reinhard", "filmic"]
+CURVES = ["srgb", "reinhard", "filmic", "agx", "aces2"]
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +83,10 @@ def test_samples_that_are_no_numbers_are_black():
     ("arguments", "message"),
     [
         ({"curve": "filmik"}, "did you mean 'filmic'"),
-        ({"curve": "x"}, "srgb, reinhard, filmic"),
+        (
+            {"curve": "xyzxyz"},
+            "valid are: srgb, reinhard, filmic, agx, aces2, ocio:DISPLAY/VIEW@FILE",
+        ),
         ({"exposure": 129}, "-128 and 128"),
         ({"exposure": np.nan}, "-128 and 128"),
         ({"exposure": "bright"}, "'auto'"),
@@ -136,18 +139,82 @@ def test_tiff_has_sixteen_bits_and_alpha(channels, extension, tmp_path):
     np.testing.assert_allclose(read_tiff(path), expected, atol=2e-5)
 
 
-def read_tiff(path) -> np.ndarray:
-    """Linear light, and alpha, by which colours are not multiplied."""
+def read_tiff(path, bits=16) -> np.ndarray:
+    """Linear light, and alpha, by which colours are not multiplied; also of a PNG."""
     oiio = pytest.importorskip("OpenImageIO")
     hints = oiio.ImageSpec()
     hints.attribute("oiio:UnassociatedAlpha", 1)
     file = oiio.ImageInput.open(str(path), hints)
-    assert str(file.spec().format) == "uint16"
+    assert str(file.spec().format) == f"uint{bits}"
     stored = file.read_image("float").astype(float)
     linear = np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
     if linear.shape[2] in (2, 4):
         linear[..., -1] = stored[..., -1]
     return linear
+
+
+@pytest.mark.parametrize("channels", [1, 2, 3, 4])
+@pytest.mark.parametrize(("extension", "bits"), [("png", 16), ("tif", 8)])
+def test_pictures_have_the_bits_that_are_asked_for(channels, extension, bits, tmp_path):
+    image = np.random.default_rng(1).random((6, 8, channels)).astype(np.float32)
+    path = tmp_path / f"a.{extension}"
+    mlt.write_image(path, image, exposure=1, tonemap="filmic", bits=bits)
+    expected = mlt.tonemap(image, "filmic", exposure=1)
+    np.testing.assert_allclose(read_tiff(path, bits), expected, atol=1.2 / 2**bits)
+    mlt.write_image(tmp_path / "b.png", image, exposure=1, tonemap="filmic", bits=8)
+    mlt.write_image(tmp_path / "c.png", image, exposure=1, tonemap="filmic")
+    assert (tmp_path / "b.png").read_bytes() == (tmp_path / "c.png").read_bytes()
+
+
+def test_a_dark_ramp_is_smooth_in_sixteen_bits_alone(tmp_path):
+    ramp = np.linspace(0.01, 0.02, 1000, dtype=np.float32)[None]
+    for bits, most in ((8, 14), (16, 1000)):
+        mlt.write_image(tmp_path / "a.png", ramp, bits=bits)
+        assert len(np.unique(mlt.read_image(tmp_path / "a.png"))) == pytest.approx(most, abs=2)
+
+
+@pytest.mark.parametrize("channels", [1, 2, 3, 4])
+def test_tiff_of_32_bits_is_the_light_itself(channels, tmp_path):
+    image = np.random.default_rng(1).normal(0, 1e4, (6, 8, channels)).astype(np.float32)
+    mlt.write_image(tmp_path / "a.tif", image, exposure=1, tonemap="filmic", bits=32)
+    oiio = pytest.importorskip("OpenImageIO")
+    hints = oiio.ImageSpec()
+    hints.attribute("oiio:UnassociatedAlpha", 1)
+    file = oiio.ImageInput.open(str(tmp_path / "a.tif"), hints)
+    assert np.array_equal(file.read_image("float"), image)
+
+
+@pytest.mark.parametrize(
+    ("name", "bits", "message"),
+    [
+        ("a.jpg", 16, r"\.jpg has no samples of 16 bits; use 8, or \.png or \.tif"),
+        ("a.png", 32, r"\.png has no samples of 32 bits; use 8 or 16, or \.tif"),
+        ("a.TIF", 12, r"\.tif has no samples of 12 bits; use 8 or 16 or 32$"),
+    ],
+)
+def test_bits_that_a_format_does_not_have_are_refused(name, bits, message, tmp_path):
+    with pytest.raises(mlt.UsageError, match=message):
+        mlt.write_image(tmp_path / name, np.zeros((2, 2, 3)), bits=bits)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("shape", [(4,), (2, 2, 5), (1, 2, 3, 4)])
+@pytest.mark.parametrize("bits", [8, 16, 32])
+def test_what_is_no_picture_is_refused(shape, bits, tmp_path):
+    with pytest.raises(mlt.UsageError):
+        mlt.write_image(tmp_path / "a.tif", np.zeros(shape), bits=bits)
+
+
+def test_the_command_line_takes_bits(scene, capsys):
+    render = ["render", scene, "--spp", "1", "--bits", "16", "-o"]
+    assert cli.main([*render, "a.png", "-o", "a.exr"]) == 0
+    expected = mlt.tonemap(mlt.read_image("a.exr"), "srgb")
+    np.testing.assert_allclose(read_tiff("a.png"), expected, atol=2e-5)
+    assert cli.main(["merge", "a.exr", "--force", "--bits", "16", "-o", "b.png"]) == 0
+    assert Path("b.png").read_bytes() == Path("a.png").read_bytes()
+    capsys.readouterr()
+    assert cli.main([*render, "b.jpg"]) == 2
+    assert "use 8, or .png or .tif" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("curve", CURVES)

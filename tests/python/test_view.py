@@ -17,7 +17,7 @@ from command_line import PYMLT
 import pymlt as mlt
 from pymlt.cli import main, make_parser
 from pymlt.cli.view import given_token
-from pymlt.pictures.tonemapping import encode_srgb, tonemap
+from pymlt.pictures.tonemapping import CURVES, encode_srgb, tonemap
 
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 rich = pytest.importorskip("rich")
@@ -215,7 +215,7 @@ def test_an_image_fits_the_window(window):
 # ---- pictures
 
 
-@pytest.mark.parametrize("curve", ["srgb", "reinhard", "filmic"])
+@pytest.mark.parametrize("curve", CURVES)
 @pytest.mark.parametrize("exposure", [0, 2.5, -4])
 def test_the_quick_picture_is_that_of_tonemap(curve, exposure):
     rng = np.random.default_rng(1)

@@ -1,5 +1,5 @@
-"""The command line: pymlt render | view | merge | denoise | compare | info | list | convert |
-race | lab.
+"""The command line: pymlt render | view | merge | mix | denoise | compare | info | list |
+convert | race | lab.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more, or `compare` pixels that are no numbers; 2
 a mistake in usage or in the scene, or an output that cannot be written, found before the work
@@ -16,13 +16,13 @@ import sys
 import traceback
 
 from .. import _core, _interrupt
-from . import compare, convert, denoise, info, lab, listing, merge, race, render, view
+from . import compare, convert, denoise, info, lab, listing, merge, mix, race, render, view
 from .common import Parser, names_leniency, open_standard_streams, say
 from .completion import SHELLS, PrintCompletion
 
 GROUPS = {
     "render": {"render": render, "view": view},
-    "images": {"merge": merge, "denoise": denoise, "compare": compare},
+    "images": {"merge": merge, "mix": mix, "denoise": denoise, "compare": compare},
     "scenes": {"info": info, "list": listing, "convert": convert},
     "algorithms": {"race": race, "lab": lab},
 }

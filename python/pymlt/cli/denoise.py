@@ -7,7 +7,7 @@ from ..images import read_image, read_metadata, read_with_layers
 from ..pictures.denoising import GUIDES, denoise_with_layers
 from ..pictures.output import EXTENSIONS, OutputFile, check_writable
 from .common import say
-from .display import add_display_flags, exposure
+from .display import add_bits, add_display_flags, exposure
 
 HELP = "Remove noise from an image by Open Image Denoise."
 
@@ -24,14 +24,16 @@ def add_arguments(command) -> None:
             help=f"an image that guides the filter, in place of a layer {' or '.join(names)} of IN",
         )
     add_display_flags(command)
+    add_bits(command)
 
 
 def run(args) -> int:
-    check_writable(args.output)
+    check_writable(args.output, args.bits)
     image, layers = read_with_layers(args.image)
     given = {guide: read_image(path) for guide in GUIDES if (path := getattr(args, guide))}
     denoised = denoise_with_layers(image, layers, metadata_of(args.image), **given)
-    path, problem = OutputFile(args.output, *denoised, False, exposure(args), args.tonemap).save()
+    shown = exposure(args), args.tonemap, args.bits
+    path, problem = OutputFile(args.output, *denoised, False, *shown).save()
     if problem:
         say(problem)
     say(f"{denoised.metadata['denoised']}: {path or 'not saved'}")

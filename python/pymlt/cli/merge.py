@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.merging import merge
 from .common import say
-from .display import add_display_flags, exposure
+from .display import add_bits, add_display_flags, exposure
 
 HELP = "Merge renders of one scene with different seeds."
 
@@ -21,12 +21,13 @@ def add_arguments(command) -> None:
         "--force", action="store_true", help="whether or not they have the same scene and settings"
     )
     add_display_flags(command)
+    add_bits(command)
 
 
 def run(args) -> int:
-    check_writable(args.output)
+    check_writable(args.output, args.bits)
     merged = merge(args.renders, force=args.force)
-    path, problem = merged._save(args.output, exposure(args), args.tonemap)
+    path, problem = merged._save(args.output, exposure(args), args.tonemap, args.bits)
     if problem:
         say(problem)
     width, height = merged.stats["size"]

@@ -17,7 +17,7 @@ from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.summary import percent
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
-from .display import add_tonemap, exposure
+from .display import EXPOSURE_HELP, add_bits, add_tonemap, exposure
 from .resuming import SAVED, resumed, to_come
 from .signals import Signals
 
@@ -29,8 +29,7 @@ HELP_HERE = {
     "scene": "Mitsuba XML, glTF 2.0 or pbrt file, a mesh (.ply, .obj, .stl), or "
     "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
-    "exposure": "brighten pictures (PNG, JPEG, TIFF) by this number of stops; auto: as suits the "
-    "image",
+    "exposure": EXPOSURE_HELP,
 }
 
 
@@ -38,6 +37,7 @@ def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
         add_flag(command, flag, HELP_HERE.get(name, ""))
     add_tonemap(command)
+    add_bits(command)
     command.add_argument(
         "--bands",
         type=reader(parse_bands),
@@ -103,7 +103,7 @@ def start(args, signals: Signals) -> Job:
 def run(args) -> int:
     check(args)
     for path in args.output:
-        check_writable(path)
+        check_writable(path, args.bits)
     if args.stats:
         _core.check_file_writable(args.stats)
     import numpy  # noqa: F401 (what writing needs is there before the work begins)
@@ -183,7 +183,7 @@ def render_bands(args, result: Result, job: Job, signals: Signals) -> None:
 def save(args, result: Result) -> tuple[list[str], bool]:
     """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
     everything is where it was asked for."""
-    files = [result._save(path, exposure(args), args.tonemap) for path in args.output]
+    files = [result._save(path, exposure(args), args.tonemap, args.bits) for path in args.output]
     images = [path for path, _ in files if path]
     if args.stats:
         files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))

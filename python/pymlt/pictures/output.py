@@ -7,14 +7,14 @@ import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
-from . import tiff
+from .bits import BITS, bits_of, encode
 from .techniques import technique_figure, techniques_of
 from .tonemapping import Exposure, check_tonemap, stops_of, straight, tonemap
 
 if TYPE_CHECKING:
     import numpy as np
 
-PICTURES = (".png", ".jpg", ".jpeg", *tiff.EXTENSIONS)
+PICTURES = tuple(BITS)
 EXTENSIONS = (".exr", *PICTURES, ".hdr")
 
 
@@ -28,11 +28,12 @@ class OutputFile(NamedTuple):
     half: bool  #: for .exr
     exposure: Exposure  #: for pictures
     curve: str  #: for pictures
+    bits: int | None = None  #: for pictures: of each sample; None: as is usual for the format
 
     def write(self) -> None:
         """Raises FileError if it cannot be written, UsageError for what the format cannot hold."""
-        if self._is_tiff():
-            _core.replace_file(self.path, self._tiff())
+        if self._is_written_here():
+            _core.replace_file(self.path, self._encoded())
         else:
             _core.write_image(*self._arguments())
         self._draw_techniques(self.path)
@@ -42,21 +43,32 @@ class OutputFile(NamedTuple):
 
         Returns where the file is, or ""; and why it is not at `path`, or "".
         """
-        if self._is_tiff():
-            return _core.save_text(self.path, self._tiff())
-        where, problem = _core.save_image(*self._arguments())
+        if self._is_written_here():
+            where, problem = _core.save_text(self.path, self._encoded())
+        else:
+            where, problem = _core.save_image(*self._arguments())
         try:
             self._draw_techniques(where)
         except _core.Error as error:
             return where, "; ".join(filter(None, [problem, str(error)]))
         return where, problem
 
-    def _is_tiff(self) -> bool:
-        return self.path.lower().endswith(tiff.EXTENSIONS)
+    def _is_written_here(self) -> bool:
+        is_tiff = self.path.lower().endswith((".tif", ".tiff"))
+        return bits_of(self.path, self.bits) == 16 or is_tiff
 
-    def _tiff(self) -> bytes:
-        shown = tonemap(self.image, self.curve, exposure=self.exposure)
-        return tiff.encode_tiff(shown)
+    def _encoded(self) -> bytes:
+        shown, bits = self._with_alpha(), bits_of(self.path, self.bits)
+        if bits != 32:
+            stops = stops_of(self.exposure, self.image)
+            shown = tonemap(shown, self.curve, exposure=stops)
+        return encode(shown, self.path, bits)
+
+    def _with_alpha(self) -> np.ndarray:
+        """The image, with colours that are not multiplied by alpha where the format has alpha."""
+        if "alpha" not in self.layers or _core.alpha_problem(self.path):
+            return self.image
+        return straight(self.image, self.layers["alpha"])
 
     def _draw_techniques(self, path: str) -> None:
         """Beside NAME.png writes NAME.techniques.png, if there are techniques among the layers."""
@@ -72,9 +84,8 @@ class OutputFile(NamedTuple):
         image, layers, exposure = self.image, self.layers, stops_of(self.exposure, self.image)
         check_tonemap(self.curve)
         if self.curve != "srgb" and self.path.lower().endswith(PICTURES):
-            if "alpha" in layers and not _core.alpha_problem(self.path):
-                image, layers = straight(image, layers["alpha"]), {}
-            image, exposure = tonemap(image, self.curve, exposure=exposure), 0
+            image = tonemap(self._with_alpha(), self.curve, exposure=exposure)
+            layers, exposure = {}, 0
         return self.path, image, layers, self.metadata, self.half, exposure
 
 
@@ -88,7 +99,8 @@ def check_extension(path: str) -> None:
         )
 
 
-def check_writable(path: str) -> None:
+def check_writable(path: str, bits: int | None = None) -> None:
     """Before the work: the UsageError or FileError that writing an image would end in."""
     check_extension(path)
+    bits_of(path, bits)
     _core.check_file_writable(path)

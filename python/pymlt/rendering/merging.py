@@ -135,6 +135,8 @@ def _check(renders: list[_Render], force: bool) -> None:
             raise _core.UsageError(f"{render.name} is denoised; merge its layer 'noisy'")
         if "fireflies" in render.metadata:
             raise _core.UsageError(f"{render.name} is filtered; merge its layer 'unfiltered'")
+        if "mixed" in render.metadata:
+            raise _core.UsageError(f"{render.name} is mixed; merge first, and mix what comes of it")
 
 
 def _size(render: _Render) -> str:

@@ -93,7 +93,12 @@ class Result:
         return replace(self, image=image, layers=layers, metadata=metadata)
 
     def write(
-        self, path: str | os.PathLike[str], exposure: Exposure = 0, *, tonemap: str = "srgb"
+        self,
+        path: str | os.PathLike[str],
+        exposure: Exposure = 0,
+        *,
+        tonemap: str = "srgb",
+        bits: int | None = None,
     ) -> None:
         """Write the image to .exr (settings, seed and version in its header), .hdr, .png, .jpg
         or .tif.
@@ -102,30 +107,42 @@ class Result:
         by it; other files show the image over black. An .exr holds the layers too; beside NAME.png,
         NAME.techniques.png shows the techniques, if there are any, for which it needs the extra
         `plots`. `exposure` brightens pictures (.png, .jpg, .tif), in stops, or "auto" as suits the
-        image; `tonemap` names their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`).
-        Raises FileError if it cannot be written, UsageError for an unknown curve or extension.
+        image; `tonemap` names their curve (see `pymlt.tonemap`).
+        `bits` of each sample of a picture are 8 or 16, or 32 for linear floats in a .tif; see
+        `pymlt.write_image`. Raises FileError if it cannot be written, UsageError for an unknown
+        curve or extension, and for bits that the format does not have.
         """
-        self._file(path, exposure, tonemap).write()
+        self._file(path, exposure, tonemap, bits).write()
 
     def save(
-        self, path: str | os.PathLike[str], exposure: Exposure = 0, *, tonemap: str = "srgb"
+        self,
+        path: str | os.PathLike[str],
+        exposure: Exposure = 0,
+        *,
+        tonemap: str = "srgb",
+        bits: int | None = None,
     ) -> str:
         """The same, but if `path` fails try other places; returns where the image is."""
-        where, problem = self._save(path, exposure, tonemap)
+        where, problem = self._save(path, exposure, tonemap, bits)
         if not where:
             raise _core.FileError(problem)
         return where
 
     def _save(
-        self, path: str | os.PathLike[str], exposure: Exposure = 0, tonemap: str = "srgb"
+        self,
+        path: str | os.PathLike[str],
+        exposure: Exposure = 0,
+        tonemap: str = "srgb",
+        bits: int | None = None,
     ) -> tuple[str, str]:
         """Where the image is, or ""; and why it is not at `path`, or ""."""
-        return self._file(path, exposure, tonemap).save()
+        return self._file(path, exposure, tonemap, bits).save()
 
-    def _file(self, path: str | os.PathLike[str], exposure: Exposure, tonemap: str) -> OutputFile:
-        return OutputFile(
-            os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure, tonemap
-        )
+    def _file(
+        self, path: str | os.PathLike[str], exposure: Exposure, tonemap: str, bits: int | None
+    ) -> OutputFile:
+        linear = self.image, self.layers, self.metadata, self.half
+        return OutputFile(os.fspath(path), *linear, exposure, tonemap, bits)
 
     def _repr_png_(self) -> bytes:
         return png(self.image)

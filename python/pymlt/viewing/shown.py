@@ -41,7 +41,7 @@ def picture(image: np.ndarray, exposure: float, curve: str) -> np.ndarray:
     import numpy as np
 
     light = np.asarray(image, dtype=np.float32) * np.float32(2.0**exposure)
-    if curve == "reinhard":  # it looks at all channels of a pixel; then nothing but sRGB is left
+    if curve not in ("srgb", "filmic"):  # others look at all channels of a pixel; then sRGB is left
         light, curve = tonemap(light, curve), "srgb"
     with np.errstate(over="ignore", invalid="ignore"):
         bits = light.astype(np.float16).view(np.uint16)
