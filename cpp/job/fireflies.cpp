@@ -25,13 +25,6 @@ int left_out(const std::vector<float>& sorted) {
   return std::min(static_cast<int>(std::clamp(gini, 0.0, 1.0) * count / 2), (count - 1) / 2);
 }
 
-std::vector<GroupImage> groups_with_images(const Rendering& rendering) {
-  std::vector<GroupImage> groups;
-  for (int g = 0; g < Rendering::group_count; ++g)
-    if (GroupImage group = rendering.group(g); group.weight > 0) groups.push_back(std::move(group));
-  return groups;
-}
-
 Image adaptive_median(const std::vector<Image>& groups) {
   Image image(groups[0].width, groups[0].height, 3);
   std::vector<float> brightness(groups.size()), sorted;
@@ -57,7 +50,9 @@ Image adaptive_median(const std::vector<Image>& groups) {
 
 Image without_fireflies(const Rendering& rendering) {
   std::vector<Image> groups;
-  for (GroupImage& group : groups_with_images(rendering)) groups.push_back(std::move(group.image));
+  for (int g = 0; g < Rendering::group_count; ++g)
+    if (GroupImage group = rendering.group(g); group.weight > 0)
+      groups.push_back(std::move(group.image));
   if (groups.empty()) return rendering.image();
   Image image = adaptive_median(groups);
   for (const Rendering* part : rendering.parts()) image += without_fireflies(*part);

@@ -17,9 +17,6 @@ namespace mlt {
 /// c of groups whose brightnesses are sorted, the smallest first.
 int left_out(const std::vector<float>& sorted);
 
-/// The groups of a rendering that have samples.
-std::vector<GroupImage> groups_with_images(const Rendering& rendering);
-
 /// The adaptive median of means over the groups of one rendering.
 Image adaptive_median(const std::vector<Image>& groups);
 

@@ -21,6 +21,14 @@ Image weighted_mean(const GroupImages& groups) {
   return mean;
 }
 
+/// The groups first ... last - 1 of those that have samples.
+GroupImages images_of(const Rendering& rendering, const std::vector<int>& live, size_t first,
+                      size_t last) {
+  GroupImages groups;
+  for (size_t i = first; i < last; ++i) groups.push_back(rendering.group(live[i]));
+  return groups;
+}
+
 Half half_of(GroupImages groups) {
   Half half;
   half.image = weighted_mean(groups);
@@ -38,12 +46,13 @@ void add(Half& sum, const Half& part) {
 }  // namespace
 
 std::optional<Halves> halves(const Rendering& rendering) {
-  GroupImages first = groups_with_images(rendering);
-  if (first.size() < fewest_to_halve) return std::nullopt;
-  const auto middle = first.begin() + static_cast<std::ptrdiff_t>(first.size() / 2);
-  GroupImages second(std::make_move_iterator(middle), std::make_move_iterator(first.end()));
-  first.erase(middle, first.end());
-  Halves sum{half_of(std::move(first)), half_of(std::move(second))};
+  std::vector<int> live;
+  for (int g = 0; g < Rendering::group_count; ++g)
+    if (rendering.group(g).weight > 0) live.push_back(g);
+  if (live.size() < fewest_to_halve) return std::nullopt;
+  const size_t middle = live.size() / 2;
+  Halves sum{half_of(images_of(rendering, live, 0, middle)),
+             half_of(images_of(rendering, live, middle, live.size()))};
   for (const Rendering* part : rendering.parts()) {
     const std::optional<Halves> more = halves(*part);
     if (!more) return std::nullopt;

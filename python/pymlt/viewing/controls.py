@@ -13,6 +13,7 @@ from ..pictures.output import OutputFile
 from ..pictures.tonemapping import CURVES, stops_of
 from ..rendering.job import Job
 from . import shown
+from .lamps import Lamps
 from .live import Algorithm
 from .page import STYLE, table
 
@@ -57,6 +58,7 @@ class Controls:
                 "Denoise", False, hint="the picture, not what is saved"
             )
             self._layer = gui.add_dropdown("Layer", list(shown.LAYERS))
+        self.lamps = Lamps(session)
         self._save = gui.add_button_group("Save as", ["EXR", "PNG", "JPEG"])
         with gui.add_folder("Mouse and keys", expand_by_default=False):
             gui.add_html(table(KEYS))
@@ -101,7 +103,8 @@ class Controls:
 
     def look(self) -> shown.Look:
         exposure, clean = float(self._exposure.value), bool(self._denoise.value)
-        return shown.Look(self._layer.value, exposure, self._curve.value, clean)
+        lamps = self.lamps.factors()
+        return shown.Look(self._layer.value, exposure, self._curve.value, clean, lamps)
 
     def share(self) -> float | None:
         """Of the width that the first of two renders has; None for one."""
@@ -109,6 +112,7 @@ class Controls:
 
     def show_status(self) -> None:
         live, clean = self._session.live, bool(self._denoise.value)
+        self.lamps.follow(live.jobs)
         rows = [
             [escape(name), f"{job.samples:.4g} spp", self._errors.figure(job, clean)]
             for name, job in zip(self._names(), live.jobs, strict=False)

@@ -60,8 +60,12 @@ class LiveRender:
         scene: Callable[[int], _core.Scene],
         algorithms: list[Algorithm],
         seconds: float,
+        *,
+        lamps: bool = False,
     ) -> None:
         """Render `scene(1)` for so long, after `scene(divisor)` for first pictures.
+
+        With `lamps` the light of each is kept.
 
         Raises UsageError or SceneError, and then what went before goes on.
         """
@@ -75,7 +79,8 @@ class LiveRender:
             lambda d=d: start(scene(d), "path", spp=1, threads=self._threads) for d in rows
         ]
         self._make = lambda: [
-            start(full, integrator, time=seconds, threads=threads) for integrator in made
+            start(full, integrator, time=seconds, threads=threads, light_groups=lamps)
+            for integrator in made
         ]
         self._next()
 

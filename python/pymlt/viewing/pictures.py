@@ -6,6 +6,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
+from ..pictures.denoising import denoise
 from ..rendering.job import Job
 from ..rendering.start import start
 from . import shown
@@ -52,7 +53,10 @@ class Pictures:
             error = live.jobs[index].error_map
             if error is not None:
                 return shown.error_picture(image, error)
-        if look.denoise:
+        if look.lamps:
+            image = _mixed(live.jobs[index], look.lamps)
+            image = denoise(image) if look.denoise else image
+        elif look.denoise:
             image = self._without_noise(live.jobs[index])
         return shown.picture(image, look.exposure, look.curve)
 
@@ -77,3 +81,10 @@ class Pictures:
             job = start(self._session.scene(), "direct", spp=1, aovs=name)
             self._layers[name] = shown.layer_picture(name, job.result().layers[name])
         return self._layers[name]
+
+
+def _mixed(job: Job, factors: dict[str, tuple[float, float, float]]) -> np.ndarray:
+    """The light of all lamps, each times its factors."""
+    import numpy as np
+
+    return sum(light * np.float32(factors[name]) for name, light in job.light().items())

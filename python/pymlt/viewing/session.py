@@ -132,7 +132,10 @@ class Session(Worker):
         self._try(self._restart)
 
     def _restart(self) -> None:
-        self.live.start(self.scene, self.controls.algorithms(), self.controls.seconds())
+        controls = self.controls
+        self.live.start(
+            self.scene, controls.algorithms(), controls.seconds(), lamps=controls.lamps.asked
+        )
         self.pictures.forget()
         self.renew()
 

@@ -23,6 +23,7 @@ class Look(NamedTuple):
     exposure: float = 0.0
     curve: str = "srgb"
     denoise: bool = False
+    lamps: dict[str, tuple[float, float, float]] | None = None  #: factors of their light
 
 
 @functools.lru_cache(maxsize=4)
