@@ -13,7 +13,7 @@ class MultiplexedKernel : public MultiplexedStep, public KernelDefaults {
   using MultiplexedStep::MultiplexedStep;
 
   void record(ChainRecorder& recorder, const MultiplexedState& x, double weight) const {
-    recorder.record(x.raster, x.rgb / x.target, weight, x.target_over_density);
+    recorder.record(x.raster, x.rgb / x.target, weight, x.target_over_density, 0);
   }
   Vec2 raster_of(const MultiplexedState& x) const { return x.raster; }
 

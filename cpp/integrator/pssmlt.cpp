@@ -50,7 +50,7 @@ class PssmltKernel : public Step, public KernelDefaults {
   void record(ChainRecorder& recorder, const PrimaryState& x, double weight) const {
     const double denominator = weights_.denominator(x.target);
     for (const ImageLight& light : x.light)
-      recorder.record(light.raster, light.rgb / denominator, weight, denominator);
+      recorder.record(light.raster, light.rgb / denominator, weight, denominator, light.layers);
   }
   double proposal_weight() const { return this->last() == Step::large ? large_step_weight_ : 0; }
 

@@ -30,6 +30,15 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
   } catch (const std::bad_alloc&) {
     fail_for_memory();
   }
+  check_layer_names();
+}
+
+void Job::check_layer_names() const {
+  const LightLayers* light = rendering_->light_layers();
+  if (!light) return;
+  for (const Aov& aov : aovs_)
+    for (const std::string& name : light->names())
+      if (name == aov.name) throw UsageError("two layers are called '" + name + "'");
 }
 
 void Job::stop() {

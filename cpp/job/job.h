@@ -75,8 +75,8 @@ class Job {
   Image image() const;      ///< The image so far: linear RGB, row 0 on top.
   /// The image so far, without fireflies (see without_fireflies).
   Image image_without_fireflies() const;
-  /// Further images that the render was asked to keep, layers of the first surface (see aov.h),
-  /// alpha, and the error of the image, so far.
+  /// Further images that the render was asked to keep, layers of light with the errors of those of
+  /// lamps, layers of the first surface (see aov.h), alpha, and the error of the image, so far.
   std::vector<NamedImage> layers() const;
   bool has_alpha() const { return alpha_; }
   /// The error of the image so far; after the end it is estimated only once.
@@ -121,6 +121,8 @@ class Job {
   void let_savers_in();
   std::string state() const;
   std::vector<NamedImage> first_surface_layers() const;
+  std::vector<NamedImage> light_layers() const;
+  void check_layer_names() const;
   double seconds_so_far() const;
 
   ScenePtr scene_;

@@ -43,6 +43,14 @@ class BDPT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     light_image : boolean, default True
         Use techniques that connect light paths to the lens (t <= 1).
     sample_direct : boolean, default True
@@ -61,6 +69,8 @@ class BDPT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     light_image: bool
     sample_direct: bool
     heuristic: Literal["balance", "power", "maximum"]
@@ -74,6 +84,8 @@ class BDPT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         light_image: bool = True,
         sample_direct: bool = True,
         heuristic: Literal["balance", "power", "maximum"] = "power",
@@ -145,6 +157,14 @@ class ERPT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
@@ -200,6 +220,8 @@ class ERPT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     lens_perturbation: bool
@@ -230,6 +252,8 @@ class ERPT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         lens_perturbation: bool = True,
@@ -272,6 +296,14 @@ class MLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
@@ -389,6 +421,8 @@ class MLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -443,6 +477,8 @@ class MLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         independent_share: float | None = None,
@@ -586,6 +622,14 @@ class Path(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     """
 
     max_depth: int
@@ -593,6 +637,8 @@ class Path(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     def __init__(
         self,
         *,
@@ -601,6 +647,8 @@ class Path(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
     ) -> None: ...
 
 class PSSMLT(Integrator):
@@ -703,6 +751,14 @@ class PTracer(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     """
 
     max_depth: int
@@ -710,6 +766,8 @@ class PTracer(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     def __init__(
         self,
         *,
@@ -718,6 +776,8 @@ class PTracer(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
     ) -> None: ...
 
 class RJMLT(Integrator):

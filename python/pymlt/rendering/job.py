@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from ..pictures.tonemapping import Exposure
 from .notebook import show
-from .options import RenderOptions, integer, number, relative_error, seconds
+from .options import RenderOptions, integer, light_classes, number, relative_error, seconds
 from .progress import progress_bar
 from .result import Groups, Replay, Result
 from .stats import Stats
@@ -31,13 +31,15 @@ class Job:
 
     def __init__(self, scene: _core.Scene, integrator: _core.Integrator, options: RenderOptions):
         self._scene = scene
-        self._integrator = integrator
+        self._integrator = _core.with_light_layers(
+            integrator, options.light_groups, light_classes(options.light_layers)
+        )
         self._options = options
         self._cluster = options.cluster
         self._filters = options.fireflies == "groups"
         self._job = _core.Job(
             scene,
-            integrator,
+            self._integrator,
             options.spp,
             options.time,
             options.error,

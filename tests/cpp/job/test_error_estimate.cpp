@@ -26,16 +26,16 @@ class Given : public Rendering {
         common_(std::move(common)),
         share_sequence_(share_sequence) {}
 
-  GroupImage group(int index) const override {
+  GroupImage group(int index, int) const override {
     if (index >= static_cast<int>(groups_.size())) return {};
     return {groups_[index], 1};
   }
-  Image common_error() const override { return common_; }
+  Image common_error(int) const override { return common_; }
   bool groups_share_sequence() const override { return share_sequence_; }
 
   Memory memory(double) const override { return {}; }
   void run_unit(uint64_t) override {}
-  Image image() const override { return {}; }
+  Image image(int) const override { return {}; }
   void add_stats(Stats&) const override {}
   std::string save(const Task&, Content) const override { return {}; }
   void load(const std::string&) override {}
