@@ -49,6 +49,11 @@ std::regex class_expression(const std::string& name, const std::string& expressi
   }
 }
 
+void check_layers(LayerMask layers, int count) {
+  if (uint64_t{layers} >> count != 0)
+    throw RenderError("the saved state has layers that do not exist");
+}
+
 LightLayers::LightLayers(const Scene& scene, const LightLayerSettings& settings) {
   if (settings.groups) add_groups(scene);
   for (const auto& [name, expression] : settings.classes) {

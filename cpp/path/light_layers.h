@@ -39,6 +39,9 @@ void for_each_layer(LayerMask layers, Use&& use) {
   for (; layers != 0; layers &= layers - 1) use(__builtin_ctz(layers));
 }
 
+/// Throws RenderError if a set that was saved has other layers than the first `count`.
+void check_layers(LayerMask layers, int count);
+
 class LightLayers {
  public:
   static constexpr size_t most = 32;

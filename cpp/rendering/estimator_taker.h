@@ -2,6 +2,7 @@
 #pragma once
 
 #include "path/estimators.h"
+#include "path/layered_sample.h"
 #include "rendering/sampled_rendering.h"
 
 namespace mlt {
@@ -14,7 +15,7 @@ class SampleLight {
  public:
   /// Light at the sample's own position, times own_scale, is radiance.
   SampleLight(const Vec2& raster, double own_scale, SampleSink& sink)
-      : raster_(raster), own_scale_(own_scale), sink_(&sink), layers_(sink.light_layers()) {}
+      : raster_(raster), own_scale_(own_scale), sink_(&sink), layers_(sink.finder().count()) {}
   /// Adds light with this weighted colour.
   void add(const ImageLight& light, const Color& rgb) {
     if (!light.own_pixel) return sink_->splat(light.raster, rgb, light.layers);
@@ -66,22 +67,19 @@ class EstimatorTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     typename Sum::Sample sample(sum_, raster, sink);
-    if (sink.light_layers() > 0) {
-      draw_with_paths(raster, sampler, rays);
-      for (auto& [light, path] : found_) {
-        if (path < paths_.size()) light.layers = sink.layers_of(paths_[path].path);
-        sample.add(light);
-      }
+    const auto take = [&](const FoundLight& light) { sample.add(light); };
+    if (sink.finder().count() > 0) {
+      layered_(estimator_, raster, sampler, rays, sink.finder(), take);
     } else {
       estimator_.paths = sink.paths();
-      estimator_(raster, sampler, rays, [&](const FoundLight& light) { sample.add(light); });
+      estimator_(raster, sampler, rays, take);
     }
     sample.finish();
   }
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (!wave_ || sink.light_layers() > 0)
+    if (!wave_ || sink.finder().count() > 0)
       return SampleTaker::sample_cells(cells, streams, sink, rays);
     if constexpr (!std::is_same_v<Wave, NoWave>) {
       for_each_packet_cell(cells, [&](const Vec2i& cell) {
@@ -93,14 +91,6 @@ class EstimatorTaker : public SampleTaker {
   }
 
  private:
-  /// An estimator finds light, then records its path, unless it is black.
-  void draw_with_paths(const Vec2& raster, PixelSampler& sampler, RayCounts& rays) {
-    found_.clear();
-    paths_.clear();
-    estimator_.paths = &paths_;
-    estimator_(raster, sampler, rays,
-               [&](const FoundLight& light) { found_.push_back({light, paths_.size()}); });
-  }
   void trace_wave(SampleSink& sink, RayCounts& rays) {
     if (wave_->size() == 0) return;
     wave_->trace(rays);
@@ -116,8 +106,7 @@ class EstimatorTaker : public SampleTaker {
   Estimator estimator_;
   Sum sum_;
   std::unique_ptr<Wave> wave_;
-  std::vector<std::pair<FoundLight, size_t>> found_;  ///< Light, and the place of its path.
-  std::vector<FoundPath> paths_;
+  LayeredSample layered_;
 };
 
 /// Renders the image by an estimator alone.

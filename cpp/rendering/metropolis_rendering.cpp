@@ -25,6 +25,7 @@ MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
             scene_->film().filter, group_count, scene_->camera().raster().border > 0) {
   keep_light_layers(settings.light);
+  algorithm_->keep_layers(light_layers());
   if (light_layers_)
     for (int i = 0; i < light_layers_->count(); ++i)
       light_films_.push_back(std::make_unique<SplatFilm>(

@@ -61,9 +61,8 @@ class SampleSink {
   void count_invalid() { ++invalid_; }
   /// Where found paths are recorded; usually nullptr.
   std::vector<FoundPath>* paths() { return replay_ ? &replay_->paths : nullptr; }
-  /// The number of layers of light that are kept.
-  int light_layers() const { return finder_.count(); }
-  LayerMask layers_of(const Path& path) { return finder_.of(path); }
+  /// Finds the layers of light that are kept.
+  LightLayers::Finder& finder() { return finder_; }
   uint64_t invalid() const { return invalid_; }
 
  private:

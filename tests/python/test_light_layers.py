@@ -21,6 +21,10 @@ INTEGRATORS = {
     "ptracer": mlt.PTracer(**EASY),
     "mlt": mlt.MLT(**METROPOLIS),
     "erpt": mlt.ERPT(**METROPOLIS),
+    "pssmlt": mlt.PSSMLT(**METROPOLIS),
+    "pssmlt over bdpt": mlt.PSSMLT(estimator="bdpt", **METROPOLIS),
+    "mmlt": mlt.MMLT(**METROPOLIS),
+    "rjmlt": mlt.RJMLT(**METROPOLIS),
 }
 
 
@@ -124,7 +128,7 @@ def blocks(image, size=4):
     return cut.mean(axis=(1, 3)).ravel()
 
 
-@pytest.mark.parametrize("integrator", ["path", "bdpt", "mlt"])
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "mlt", "pssmlt over bdpt", "mmlt"])
 @pytest.mark.parametrize("lamp", LAMPS)
 def test_a_layer_is_what_a_render_with_this_lamp_alone_shows(scene, integrator, lamp):
     """Means of blocks, by Student's t over eight seeds with 14 degrees of freedom.
@@ -246,7 +250,11 @@ def test_what_cannot_be_kept_is_refused(scene, integrator, options, message):
         mlt.start(scene, integrator, spp=1, **options)
 
 
-def test_a_checkpoint_says_which_layers_there_are(capsys):
-    command = ["render", "--resume", "half.mlt", "-o", "a.exr", "--light-groups"]
-    assert main(command) == 2
-    assert "--light-groups cannot be given with --resume" in capsys.readouterr().err
+def test_a_checkpoint_says_which_layers_there_are(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    mlt.start("ring", "path", spp=1, checkpoint="ring.mlt", light_groups=True).wait()
+    command = ["render", "--resume", "ring.mlt", "--spp", "2", "-o", "ring.exr"]
+    assert main([*command, "--light-groups"]) == 0
+    assert mlt.read_metadata("ring.exr")["light_groups"].startswith("light.")
+    assert main([*command, "--layer", "caustics=LS+DE"]) == 2
+    assert "--layer is caustics=LS+DE here and not in the checkpoint" in capsys.readouterr().err

@@ -545,6 +545,14 @@ class MMLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
@@ -576,6 +584,8 @@ class MMLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -593,6 +603,8 @@ class MMLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         independent_share: float | None = None,
@@ -669,6 +681,14 @@ class PSSMLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 256
@@ -703,6 +723,8 @@ class PSSMLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -721,6 +743,8 @@ class PSSMLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 256,
         independent_share: float | None = None,
@@ -798,6 +822,14 @@ class RJMLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
@@ -829,6 +861,8 @@ class RJMLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -846,6 +880,8 @@ class RJMLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         independent_share: float | None = None,
