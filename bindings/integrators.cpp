@@ -53,7 +53,7 @@ void bind_integrators(py::module_& m) {
   m.def(
       "with_light_layers",
       [](const MadeIntegrator& made, bool groups, const Assignments& classes) {
-        return with_light_layers(made, groups, classes, plugins());
+        return with_light_layers(made, {groups, classes}, plugins());
       },
       py::arg("integrator"), py::arg("groups"), py::arg("classes"),
       "It again, keeping layers of light.");

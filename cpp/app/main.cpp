@@ -173,7 +173,7 @@ int run(Options options) {
           saved ? saved->integrator
                 : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
           plugins()),
-      options.light_groups, options.light_layers, plugins());
+      options.light, plugins());
   ask_for_layers(options.aovs.empty() ? loaded.aovs : options.aovs, loaded, options.render);
   options.render.hide_emitters = made.hide_emitters;
   if (!options.checkpoint.path.empty())

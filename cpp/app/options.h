@@ -24,8 +24,7 @@ struct Options {
   CheckpointFile checkpoint;  ///< Written while it renders; its path may be "".
   std::string resume;         ///< A checkpoint to resume, or "".
   std::string aovs;           ///< Layers, in place of the scene's own.
-  bool light_groups = false;
-  Assignments light_layers;              ///< Classes of paths.
+  LightLayerSettings light;
   std::optional<double> exposure = 0.0;  ///< Stops; nothing: what suits the image.
   bool quiet = false;
 };

@@ -28,8 +28,6 @@ class MltIntegrator : public Integrator {
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
     metropolis_.light = light_layers(params);
-    if (metropolis_.light.any() && direct_samples_ > 0)
-      params.fail("direct_samples", "has no layers of light; leave it out, or be it -1 or 0");
     settings_.mixture = read_mixture(params, mutation_plugins());
     const bool chosen =
         std::any_of(mutation_plugins().begin(), mutation_plugins().end(),
@@ -40,7 +38,7 @@ class MltIntegrator : public Integrator {
     SeparateDirect direct;
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.rules.hide_emitters,
-                               settings_.rules.strict_normals);
+                               settings_.rules.strict_normals, metropolis_.light);
     return std::make_unique<MetropolisRendering>(
         scene, seed, metropolis_, mlt_algorithm(scene, settings_), std::move(direct));
   }

@@ -115,6 +115,9 @@ size_t Job::bytes_for_the_end() const {
   const Vec2i size = scene_->camera().raster().size;
   size_t per_pixel = end_per_pixel + (alpha_ ? alpha_per_pixel : 0);
   for (const Aov& aov : aovs_) per_pixel += bytes_per_pixel(aov);
+  // the light and its error
+  if (rendering_ && rendering_->light_layers())
+    per_pixel += 2 * aov_per_pixel * rendering_->light_layers()->count();
   return end_at_least + per_pixel * size.x * size.y;
 }
 

@@ -86,9 +86,9 @@ MadeIntegrator make_integrator(const Node& given, const Registry& registry) {
   return made;
 }
 
-MadeIntegrator with_light_layers(const MadeIntegrator& made, bool groups,
-                                 const Assignments& classes, const Registry& registry) {
-  if (!groups && classes.empty()) return made;
+MadeIntegrator with_light_layers(const MadeIntegrator& made, const LightLayerSettings& layers,
+                                 const Registry& registry) {
+  if (!layers.any()) return made;
   if (made.extra_mutations)
     throw UsageError(
         "give light_groups and light_layers to the integrator, beside its mutations in Python");
@@ -97,15 +97,8 @@ MadeIntegrator with_light_layers(const MadeIntegrator& made, bool groups,
   if (!schema.find("light_groups"))
     throw UsageError("'" + schema.name + "' keeps no layers of light; those that do are " +
                      those_with(registry, "light_groups"));
-  std::string all;
-  for (const auto& [name, expression] : classes) {
-    const std::string text = name + "=" + expression;
-    if (text.find_first_of(" \t\n") != std::string::npos)
-      throw UsageError("the layer '" + text + "' has a blank; write it without");
-    all += (all.empty() ? "" : " ") + text;
-  }
-  if (groups) assign(node, "light_groups", "true", schema);
-  if (!classes.empty()) assign(node, "light_layers", all, schema);
+  if (layers.groups) assign(node, "light_groups", "true", schema);
+  if (!layers.classes.empty()) assign(node, "light_layers", layers.text(), schema);
   MadeIntegrator layered = make_integrator(node, registry);
   layered.aovs = made.aovs;
   layered.warnings = made.warnings;

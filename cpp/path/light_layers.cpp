@@ -30,6 +30,17 @@ std::string name_of(const Emitter& emitter) {
 
 }  // namespace
 
+std::string LightLayerSettings::text() const {
+  std::string all;
+  for (const auto& [name, expression] : classes) {
+    const std::string text = name + "=" + expression;
+    if (text.find_first_of(" \t\n\r\v\f") != std::string::npos)
+      throw UsageError("the layer '" + text + "' has a blank; write it without");
+    all += (all.empty() ? "" : " ") + text;
+  }
+  return all;
+}
+
 std::string path_class(const Path& path) {
   std::string letters = "L";
   for (int i = 1; i < path.edges(); ++i)

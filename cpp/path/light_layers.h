@@ -21,6 +21,8 @@ struct LightLayerSettings {
   std::vector<std::pair<std::string, std::string>> classes;
 
   bool any() const { return groups || !classes.empty(); }
+  /// The classes as the parameter light_layers names them.
+  std::string text() const;
 };
 
 /// The letters of a path from the light to the eye (Heckbert 1990; Veach 1997, sec. 8.3): L, then

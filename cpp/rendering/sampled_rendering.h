@@ -167,7 +167,7 @@ class SampledRendering : public Rendering {
   WeightClasses classes() const;
   std::vector<NamedImage> layers() const override;
   void add_stats(Stats& stats) const override;
-  /// Repeats one sample; `direct` returns its radiance alone, the others its paths too.
+  /// Repeats one sample, with its paths.
   Replay replay(const Vec2i& pixel, uint64_t sample) override;
   std::string save(const Task& task, Content content) const override;
   void load(const std::string& state) override;

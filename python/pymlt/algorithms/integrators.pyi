@@ -119,6 +119,14 @@ class Direct(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     """
 
     shading_samples: int
@@ -127,6 +135,8 @@ class Direct(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     def __init__(
         self,
         *,
@@ -136,6 +146,8 @@ class Direct(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
     ) -> None: ...
 
 class ERPT(Integrator):
