@@ -50,6 +50,13 @@ void bind_integrators(py::module_& m) {
           [](const py::bytes& packed) { return make_integrator(unpack_node(packed), plugins()); }));
   m.def("integrator_by_name", &by_name, py::arg("scene"), py::arg("name"), py::arg("assignments"));
   m.def("integrator_from_dict", &integrator_from_dict, py::arg("dict"));
+  m.def(
+      "with_light_layers",
+      [](const MadeIntegrator& made, bool groups, const Assignments& classes) {
+        return with_light_layers(made, {groups, classes}, plugins());
+      },
+      py::arg("integrator"), py::arg("groups"), py::arg("classes"),
+      "It again, keeping layers of light.");
   m.def("with_mutations", &with_python_mutations, py::arg("integrator"), py::arg("scene"),
         py::arg("mutations"));
 }

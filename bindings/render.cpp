@@ -90,11 +90,24 @@ std::optional<double> relative_error(const PyJob& job) {
   return std::isnan(error) ? std::nullopt : std::optional(error);
 }
 
-py::dict layers(PyJob& job) {
-  std::vector<NamedImage> layers = without_gil([&] { return job.layers(); });
+py::dict by_name(std::vector<NamedImage> images) {
   py::dict dict;
-  for (NamedImage& layer : layers) dict[py::str(layer.name)] = to_array(std::move(layer.image));
+  for (NamedImage& one : images) dict[py::str(one.name)] = to_array(std::move(one.image));
   return dict;
+}
+
+py::dict layers(PyJob& job) {
+  return by_name(without_gil([&] { return job.layers(); }));
+}
+
+py::dict light(PyJob& job) {
+  return by_name(without_gil([&] { return job.light(); }));
+}
+
+std::vector<std::string> light_groups(PyJob& job) {
+  const LightLayers* light = job.rendering().light_layers();
+  if (!light) return {};
+  return {light->names().begin(), light->names().begin() + light->group_count()};
 }
 
 py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) {
@@ -167,6 +180,8 @@ void bind_render(py::module_& m) {
       .def("relative_error", &relative_error,
            "The relative error so far, or None if nothing is known.")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
+      .def("light", &light, "The light of each lamp so far, by the names of these layers.")
+      .def_property_readonly("light_groups", &light_groups)
       .def(
           "stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")
       .def("metadata", &job_metadata);

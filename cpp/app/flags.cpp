@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -91,66 +92,77 @@ std::string first_spelling(const Flag& flag) {
   return all.substr(0, all.find(','));
 }
 
+/// See render_flags().
+const Flag all_flags[] = {
+    {"scene", "scene", "SCENE", &any_text, "Mitsuba XML file, or the name of a built-in scene",
+     Flag::file},
+    {"output", "-o,--output", "FILE", &any_text,
+     "image file: .exr, .png, .jpg or .hdr; may be repeated",
+     Flag::required | Flag::repeatable | Flag::file},
+    {"integrator", "--integrator", "NAME", &any_text, "algorithm, in place of the scene's own",
+     Flag::fixed_by_resume},
+    {"parameters", "-p", "NAME=VALUE", &assignment, "integrator parameter; may be repeated",
+     Flag::repeatable | Flag::fixed_by_resume},
+    {"defines", "-D", "NAME=VALUE", &assignment,
+     "value for a <default> parameter of the scene; may be repeated",
+     Flag::repeatable | Flag::fixed_by_resume},
+    {"size", "--size", "WxH", &image_size, "image size in pixels, such as 640x360",
+     Flag::fixed_by_resume},
+    {"sensor", "--sensor", "N", &sensor, "which of the scene's sensors, counted from 0",
+     Flag::fixed_by_resume},
+    {"filter", "--filter", "NAME", &any_text,
+     "reconstruction filter, in place of the scene's own: box, tent, gaussian, mitchell, "
+     "catmullrom, lanczos",
+     Flag::fixed_by_resume},
+    {"spectral", "--spectral", "", nullptr,
+     "light has wavelengths instead of R, G and B, even if the scene does not ask for it",
+     Flag::fixed_by_resume},
+    {"lenient", "--lenient", "", nullptr,
+     "leave out unknown parameters of the scene with a warning, as in files of Mitsuba 0.x",
+     Flag::fixed_by_resume},
+    {"strict", "--strict", "", nullptr,
+     "refuse unknown parameters of the scene, as in files of Mitsuba 2 and later",
+     Flag::fixed_by_resume},
+    {"spp", "--spp", "N", &spp, "samples (or mutations) per pixel"},
+    {"time", "--time", "SECONDS", &positive, "seconds to render"},
+    {"error", "--error", "E", &share, "relative error to reach, such as 2% or 0.02"},
+    {"aovs", "--aov", "LIST", &any_text,
+     "layers of what the camera sees first: albedo, depth, position, uv, geo_normal, sh_normal, "
+     "shape_index, prim_index, optical_depth (of the media before it), cryptomatte_object, "
+     "cryptomatte_material; each may have a name, as in n:sh_normal"},
+    {"light_groups", "--light-groups", "", nullptr,
+     "EXR files have the light of each lamp as a layer, such as light.lamp; they add up to the "
+     "image",
+     Flag::fixed_by_resume},
+    {"light_layers", "--layer", "NAME=CLASS", &assignment,
+     "EXR files have the light of a class of paths as a layer: a regular expression over their "
+     "letters from the light to the eye, such as caustics=LS+DE; may be repeated",
+     Flag::repeatable | Flag::fixed_by_resume},
+    {"alpha", "--alpha", "", nullptr, "EXR and PNG files have alpha; see also hide_emitters"},
+    {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
+    {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
+    {"checkpoint", "--checkpoint", "FILE", &any_text, "keep the state of the render in this file",
+     Flag::file},
+    {"every", "--every", "SECONDS", &positive, "between checkpoints (60)", 0, "checkpoint"},
+    {"overwrite", "--overwrite", "", nullptr,
+     "--checkpoint may replace the checkpoint of another render", 0, "checkpoint"},
+    {"resume", "--resume", "FILE", &any_text,
+     "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
+     "another file",
+     Flag::file},
+    {"cluster", "--cluster", "ADDRESS", &any_text,
+     "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
+     Flag::python_only},
+    {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON",
+     Flag::file},
+    {"exposure", "--exposure", "STOPS", &stops,
+     "brighten PNG files by this number of stops; auto: as suits the image"},
+    {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
+
 }  // namespace
 
 const std::vector<Flag>& render_flags() {
-  static const std::vector<Flag> flags = {
-      {"scene", "scene", "SCENE", &any_text, "Mitsuba XML file, or the name of a built-in scene",
-       Flag::file},
-      {"output", "-o,--output", "FILE", &any_text,
-       "image file: .exr, .png, .jpg or .hdr; may be repeated",
-       Flag::required | Flag::repeatable | Flag::file},
-      {"integrator", "--integrator", "NAME", &any_text, "algorithm, in place of the scene's own",
-       Flag::fixed_by_resume},
-      {"parameters", "-p", "NAME=VALUE", &assignment, "integrator parameter; may be repeated",
-       Flag::repeatable | Flag::fixed_by_resume},
-      {"defines", "-D", "NAME=VALUE", &assignment,
-       "value for a <default> parameter of the scene; may be repeated",
-       Flag::repeatable | Flag::fixed_by_resume},
-      {"size", "--size", "WxH", &image_size, "image size in pixels, such as 640x360",
-       Flag::fixed_by_resume},
-      {"sensor", "--sensor", "N", &sensor, "which of the scene's sensors, counted from 0",
-       Flag::fixed_by_resume},
-      {"filter", "--filter", "NAME", &any_text,
-       "reconstruction filter, in place of the scene's own: box, tent, gaussian, mitchell, "
-       "catmullrom, lanczos",
-       Flag::fixed_by_resume},
-      {"spectral", "--spectral", "", nullptr,
-       "light has wavelengths instead of R, G and B, even if the scene does not ask for it",
-       Flag::fixed_by_resume},
-      {"lenient", "--lenient", "", nullptr,
-       "leave out unknown parameters of the scene with a warning, as in files of Mitsuba 0.x",
-       Flag::fixed_by_resume},
-      {"strict", "--strict", "", nullptr,
-       "refuse unknown parameters of the scene, as in files of Mitsuba 2 and later",
-       Flag::fixed_by_resume},
-      {"spp", "--spp", "N", &spp, "samples (or mutations) per pixel"},
-      {"time", "--time", "SECONDS", &positive, "seconds to render"},
-      {"error", "--error", "E", &share, "relative error to reach, such as 2% or 0.02"},
-      {"aovs", "--aov", "LIST", &any_text,
-       "layers of what the camera sees first: albedo, depth, position, uv, geo_normal, sh_normal, "
-       "shape_index, prim_index, optical_depth (of the media before it), cryptomatte_object, "
-       "cryptomatte_material; each may have a name, as in n:sh_normal"},
-      {"alpha", "--alpha", "", nullptr, "EXR and PNG files have alpha; see also hide_emitters"},
-      {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
-      {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
-      {"checkpoint", "--checkpoint", "FILE", &any_text, "keep the state of the render in this file",
-       Flag::file},
-      {"every", "--every", "SECONDS", &positive, "between checkpoints (60)", 0, "checkpoint"},
-      {"overwrite", "--overwrite", "", nullptr,
-       "--checkpoint may replace the checkpoint of another render", 0, "checkpoint"},
-      {"resume", "--resume", "FILE", &any_text,
-       "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
-       "another file",
-       Flag::file},
-      {"cluster", "--cluster", "ADDRESS", &any_text,
-       "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
-       Flag::python_only},
-      {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON",
-       Flag::file},
-      {"exposure", "--exposure", "STOPS", &stops,
-       "brighten PNG files by this number of stops; auto: as suits the image"},
-      {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
+  static const std::vector<Flag> flags(std::begin(all_flags), std::end(all_flags));
   return flags;
 }
 

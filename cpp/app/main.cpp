@@ -168,10 +168,12 @@ int run(Options options) {
   if (!options.checkpoint.path.empty()) check_checkpoint_writable(options.checkpoint.path);
   const LoadedScene loaded = saved ? load_scene(*saved, options.resume, options.scene, plugins())
                                    : load_file(options.scene, plugins(), options.load);
-  const MadeIntegrator made = make_integrator(
-      saved ? saved->integrator
-            : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
-      plugins());
+  const MadeIntegrator made = with_light_layers(
+      make_integrator(
+          saved ? saved->integrator
+                : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
+          plugins()),
+      options.light, plugins());
   ask_for_layers(options.aovs.empty() ? loaded.aovs : options.aovs, loaded, options.render);
   options.render.hide_emitters = made.hide_emitters;
   if (!options.checkpoint.path.empty())

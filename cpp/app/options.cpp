@@ -55,6 +55,8 @@ Options read_options(const FlagValues& given) {
   take<uint64_t>(given, "seed", render.seed);
   take<uint64_t>(given, "threads", render.threads);
   text("aovs", options.aovs);
+  options.light.groups = given.count("light_groups") > 0;
+  options.light.classes = all<Assignments::value_type>(given, "light_layers");
   render.alpha = given.count("alpha") > 0;
   text("checkpoint", options.checkpoint.path);
   take<double>(given, "every", options.checkpoint.every);

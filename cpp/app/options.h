@@ -21,9 +21,10 @@ struct Options {
   Assignments parameters;
   LoadOptions load;
   RenderSettings render;
-  CheckpointFile checkpoint;             ///< Written while it renders; its path may be "".
-  std::string resume;                    ///< A checkpoint to resume, or "".
-  std::string aovs;                      ///< Layers, in place of the scene's own.
+  CheckpointFile checkpoint;  ///< Written while it renders; its path may be "".
+  std::string resume;         ///< A checkpoint to resume, or "".
+  std::string aovs;           ///< Layers, in place of the scene's own.
+  LightLayerSettings light;
   std::optional<double> exposure = 0.0;  ///< Stops; nothing: what suits the image.
   bool quiet = false;
 };

@@ -42,6 +42,12 @@ class TechniqueTaker : public SampleTaker {
 };
 
 struct BdptIntegrator : SampledDefaults {
+  static LightLayerSettings light_layers(Params& params) {
+    const LightLayerSettings layers = mlt::light_layers(params);
+    if (layers.any() && params.boolean("techniques"))
+      params.fail("techniques", "excludes light_groups and light_layers; choose one of them");
+    return layers;
+  }
   static BdptSettings settings(Params& params) {
     const BdptSettings settings{bidirectional_settings(params), params.boolean("techniques"),
                                 params.boolean("manifolds")};
@@ -80,6 +86,7 @@ Plugin integrator_bdpt() {
       "Bidirectional path tracing with every technique (s, t) and multiple importance sampling "
       "(Veach & Guibas 1994; Veach 1997, ch. 10). One spp is a camera and a light path per pixel.",
       {path_parameters(),
+       light_parameters(),
        bidirectional_parameters(),
        {{"techniques", ParamType::boolean, false,
          "Keep the image of each technique, raw and weighted; needs a max_depth of 16 or "

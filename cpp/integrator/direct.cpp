@@ -12,7 +12,7 @@ struct DirectSettings {
   PathRules rules;
 };
 
-class DirectEstimator : public Estimator, public SampledDefaults {
+class DirectEstimator : public Estimator, public LayeredDefaults {
  public:
   static DirectSettings settings(Params& params) {
     const int64_t both = params.integer_in("shading_samples", 1, 1 << 20);
@@ -45,32 +45,44 @@ class DirectEstimator : public Estimator, public SampledDefaults {
 
   template <class Sampler, class Found>
   void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
-    const Ray ray = camera_ray(scene_->camera(), raster, sampler).ray;
-    found(FoundLight{{raster, radiance(ray, sampler, rays)}});
+    const CameraRay start = camera_ray(scene_->camera(), raster, sampler);
+    watch(*scene_, raster, start, found,
+          [&](auto&& watcher) { trace(start.ray, sampler, rays, watcher); });
   }
 
  private:
-  template <class Sampler>
-  Color radiance(const Ray& ray, Sampler& sampler, RayCounts& rays) const {
+  template <class Sampler, class Watcher>
+  void trace(const Ray& ray, Sampler& sampler, RayCounts& rays, Watcher& watcher) const {
     const Walker walker{*scene_, ray.time, rays};
     CameraWalk walk(ray);
     SurfacePoint at;
     const bool hit = arrive(walker, sampler, walk, at);
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
-    Color sum(0);
     if (!settings_.rules.hide_emitters)
-      sum += walk.seen(walk.throughput * emission(*scene_, hit ? &at : nullptr, ray, always));
-    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals)) return sum;
+      find_emission(walk, hit ? &at : nullptr, 1, always, watcher);
+    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals)) return;
+    watcher.arrive(at);
     if (BsdfAt(*scene_, at).has_smooth())
       for (int i = 0; i < settings_.emitter_samples; ++i)
-        sum += by_light(walker, at, walk, sampler);
-    for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, walk, sampler);
-    return sum;
+        by_light(walker, at, walk, sampler, watcher);
+    for (int i = 0; i < settings_.bsdf_samples; ++i) by_bsdf(walker, at, walk, sampler, watcher);
   }
 
-  template <class Sampler>
-  Color by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                 Sampler& sampler) const {
+  /// Tells the emission where the ray of a walk ends, one of `count` samples.
+  template <class Weight, class Watcher>
+  void find_emission(const CameraWalk& walk, const SurfacePoint* at, double count, Weight&& weight,
+                     Watcher& watcher) const {
+    const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& emitted) {
+      const Color light = walk.seen(walk.throughput * (emitted * weight(emitter, x0))) / count;
+      watcher.find(walk, light, 0);
+      watcher.hit(emitter, x0, light);
+    };
+    visit_emission(*scene_, at, walk.ray, take);
+  }
+
+  template <class Sampler, class Watcher>
+  void by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
+                Sampler& sampler, Watcher& watcher) const {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
@@ -78,16 +90,19 @@ class DirectEstimator : public Estimator, public SampledDefaults {
     };
     const DirectLight light = direct_light(walker, at, -seen.ray.d, u,
                                            settings_.rules.strict_normals, weight, seen.likelihood);
-    return seen.seen(seen.throughput * light.radiance, light.disperses) / n;
+    const Color found = seen.seen(seen.throughput * light.radiance, light.disperses) / n;
+    watcher.find(seen, found, 0);
+    watcher.connect(u, found);
   }
 
-  template <class Sampler>
-  Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                Sampler& sampler) const {
+  template <class Sampler, class Watcher>
+  void by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
+               Sampler& sampler, Watcher& watcher) const {
     const Vec2 u = sampler.next2();
     const auto sample = scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u},
                                          settings_.rules.strict_normals);
-    if (!sample) return Color(0);
+    if (!sample) return;
+    watcher.scatter(sample->lobe);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     CameraWalk walk(walker.leave(at, sample->w));
     walk.throughput = seen.throughput * sample->weight;
@@ -101,8 +116,7 @@ class DirectEstimator : public Estimator, public SampledDefaults {
       const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
       return MisExponent(Heuristic::power).weight(m * walk.scatter_pdf, n * light);
     };
-    return walk.seen(walk.throughput * emission(*scene_, hit ? &next : nullptr, walk.ray, weight)) /
-           m;
+    find_emission(walk, hit ? &next : nullptr, m, weight, watcher);
   }
 
   const Scene* scene_;
@@ -128,6 +142,7 @@ Plugin integrator_direct() {
   for (const Parameter& shared : path_parameters())
     if (shared.name != "max_depth" && shared.name != "rr_depth")
       schema.parameters.push_back(shared);
+  for (const Parameter& layers : light_parameters()) schema.parameters.push_back(layers);
   return make_plugin<SampledIntegrator<DirectEstimator>>(schema);
 }
 

@@ -23,6 +23,7 @@ class ErptIntegrator : public Integrator {
     metropolis_.independent_share = 0;
     settings_.rules = path_rules(params);
     settings_.near_specular = params.real_in("near_specular", 0, 1);
+    metropolis_.light = light_layers(params);
     settings_.mixture = read_mixture(params, perturbations());
     settings_.adaptive = settings_.two_stage = settings_.samples_beside = false;
     settings_.tour_length = params.real_in("tour_length", 1, 1 << 24);
@@ -47,6 +48,7 @@ Plugin integrator_erpt() {
       "bidirectional path tracing, moved by the perturbations of mlt. One spp is one mutation per "
       "pixel.",
       {path_parameters(),
+       light_parameters(),
        tour_parameters(128),
        mixture_parameters(perturbations()),
        {{"near_specular", ParamType::real, 0.1,

@@ -27,6 +27,7 @@ class MltIntegrator : public Integrator {
     settings_.spark = params.real_in("spark", 0, 1e6);
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
+    metropolis_.light = light_layers(params);
     settings_.mixture = read_mixture(params, mutation_plugins());
     const bool chosen =
         std::any_of(mutation_plugins().begin(), mutation_plugins().end(),
@@ -37,7 +38,7 @@ class MltIntegrator : public Integrator {
     SeparateDirect direct;
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.rules.hide_emitters,
-                               settings_.rules.strict_normals);
+                               settings_.rules.strict_normals, metropolis_.light);
     return std::make_unique<MetropolisRendering>(
         scene, seed, metropolis_, mlt_algorithm(scene, settings_), std::move(direct));
   }
@@ -62,6 +63,7 @@ Plugin integrator_mlt() {
       "Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One "
       "spp is one mutation per pixel.",
       {path_parameters(),
+       light_parameters(),
        tour_parameters(128),
        family_parameters(),
        mixture_parameters(mutation_plugins()),

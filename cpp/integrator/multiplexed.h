@@ -16,6 +16,7 @@ class MultiplexedIntegrator : public Integrator {
                   small_step(params),
                   {large_probability(params), params.real_in("p_technique", 0, 1), change,
                    params.boolean("delayed_rejection")}} {
+    metropolis_.light = light_layers(params);
     if (settings_.moves.large_probability + settings_.moves.technique_probability > 1)
       params.fail("p_technique", "and 'p_large' are more than 1 together");
   }
@@ -31,11 +32,9 @@ class MultiplexedIntegrator : public Integrator {
 
 /// `p_technique`: the documentation of the parameter of that name.
 inline std::vector<std::vector<Parameter>> multiplexed_parameters(const char* p_technique) {
-  return {path_parameters(),
-          chain_parameters(),
-          family_parameters(),
-          primary_step_parameters(),
-          {{"p_technique", ParamType::real, 0.1, p_technique}}};
+  return {path_parameters(),         light_parameters(),
+          chain_parameters(),        family_parameters(),
+          primary_step_parameters(), {{"p_technique", ParamType::real, 0.1, p_technique}}};
 }
 
 }  // namespace mlt

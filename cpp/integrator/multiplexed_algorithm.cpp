@@ -13,7 +13,7 @@ class MultiplexedKernel : public MultiplexedStep, public KernelDefaults {
   using MultiplexedStep::MultiplexedStep;
 
   void record(ChainRecorder& recorder, const MultiplexedState& x, double weight) const {
-    recorder.record(x.raster, x.rgb / x.target, weight, x.target_over_density);
+    recorder.record(x.raster, x.rgb / x.target, weight, x.target_over_density, x.layers);
   }
   Vec2 raster_of(const MultiplexedState& x) const { return x.raster; }
 
@@ -31,8 +31,9 @@ class MultiplexedKernel : public MultiplexedStep, public KernelDefaults {
     bytes.write(x.rgb);
     bytes.write(x.target);
     bytes.write(x.target_over_density);
+    bytes.write(x.layers);
   }
-  void load(ByteReader& bytes, MultiplexedState& x) const {
+  void load(ByteReader& bytes, MultiplexedState& x) {
     x.numbers.load(bytes);
     x.technique = bytes.read<Technique>();
     if (x.technique.s < 0 || x.technique.t < 0 || x.technique.edges() < 1 ||
@@ -42,6 +43,8 @@ class MultiplexedKernel : public MultiplexedStep, public KernelDefaults {
     x.rgb = bytes.read<Color>();
     x.target = bytes.read<double>();
     x.target_over_density = bytes.read<double>();
+    x.layers = bytes.read<LayerMask>();
+    check_layers(x.layers, paths().finder.count());
   }
 };
 
@@ -50,6 +53,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   MultiplexedAlgorithm(ScenePtr scene, const MultiplexedSettings& settings)
       : target_(std::move(scene), settings.rules), settings_(settings), choice_(settings.rules) {}
 
+  void keep_layers(const LightLayers* layers) override { layers_ = layers; }
   /// Estimates how much light each technique contributes.
   void prepare(const CoarseImage& coarse, uint64_t seed, int threads,
                const std::atomic<bool>& cancelled) override {
@@ -129,7 +133,11 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   MultiplexedPaths paths() const {
     PathRules rules = settings_.rules;
     rules.rr_depth = PathRules::no_roulette;
-    return {&target_.scene(), {target_.scene(), {rules}}, settings_.small_step};
+    return {&target_.scene(),
+            {target_.scene(), {rules}},
+            settings_.small_step,
+            {},
+            LightLayers::Finder(layers_)};
   }
   std::unique_ptr<RenderChain> chain(const ChainId& id, MultiplexedState start) const {
     return std::make_unique<RecordedChain<MultiplexedKernel>>(
@@ -139,6 +147,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   PathTarget target_;
   MultiplexedSettings settings_;
   TechniqueChoice choice_;
+  const LightLayers* layers_ = nullptr;
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "integrator/parameters.h"
 
+#include "base/error.h"
+
 #include <limits>
+#include <sstream>
 
 namespace mlt {
 
@@ -34,6 +37,38 @@ PathRules path_rules(Params& params) {
   rules.strict_normals = params.boolean("strict_normals");
   rules.waves = params.boolean("waves");
   return rules;
+}
+
+// ---- layers of light ----------------------------------------------------------------------------
+
+std::vector<Parameter> light_parameters() {
+  return {
+      {"light_groups", ParamType::boolean, false,
+       "Keep the light of each lamp as a layer: `light.` with its id. They add up to the image, "
+       "and each has a layer of its error, such as `error.light.lamp`. Samples are then taken "
+       "one by one."},
+      {"light_layers", ParamType::text, std::string(),
+       "Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with "
+       "regular expressions over the letters of a path from the light to the eye: L, S for each "
+       "mirror or smooth glass, D for any other surface, M in a medium, E."}};
+}
+
+LightLayerSettings light_layers(Params& params) {
+  LightLayerSettings settings;
+  settings.groups = params.boolean("light_groups");
+  std::istringstream given(params.text("light_layers"));
+  for (std::string text; given >> text;) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      params.fail("light_layers", "has '" + text + "', but should have NAME=EXPRESSION");
+    settings.classes.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    try {
+      class_expression(settings.classes.back().first, settings.classes.back().second);
+    } catch (const UsageError& error) {
+      params.fail("light_layers", std::string("is wrong: ") + error.what());
+    }
+  }
+  return settings;
 }
 
 // ---- bidirectional path tracing -----------------------------------------------------------------

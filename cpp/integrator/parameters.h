@@ -13,6 +13,14 @@ namespace mlt {
 std::vector<Parameter> path_parameters();
 PathRules path_rules(Params& params);
 
+/// Parameters of integrators that keep layers of light.
+std::vector<Parameter> light_parameters();
+LightLayerSettings light_layers(Params& params);
+/// The defaults of sampled integrators that keep them.
+struct LayeredDefaults : SampledDefaults {
+  static LightLayerSettings light_layers(Params& params) { return mlt::light_layers(params); }
+};
+
 /// Parameters of bidirectional path tracing.
 std::vector<Parameter> bidirectional_parameters();
 /// Reads the parameters of bidirectional path tracing and of paths.

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-struct PathIntegrator : SampledDefaults {
+struct PathIntegrator : LayeredDefaults {
   static PathRules settings(Params& params) { return path_rules(params); }
   static SampledSettings film(const PathRules&) { return camera_walks(); }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
@@ -24,7 +24,7 @@ Plugin integrator_path() {
       "path",
       "Path tracing from the camera with next-event estimation and multiple importance sampling "
       "(Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.",
-      {path_parameters()});
+      {path_parameters(), light_parameters()});
   schema.ignored = {"samples_per_pass", "block_size"};
   return make_plugin<SampledIntegrator<PathIntegrator>>(schema);
 }

@@ -4,6 +4,7 @@
 #include "base/registry.h"
 #include "integrator/one_ray.h"
 #include "integrator/parameters.h"
+#include "path/layered_sample.h"
 #include "rendering/beside_chains.h"
 #include "rendering/coarse_image.h"
 #include "wave/path_sample_wave.h"
@@ -26,13 +27,19 @@ struct PrimaryPaths {
   SmallStep small_step;
   Estimator estimator;
   RayCounts rays = {};
+  LightLayers::Finder finder{nullptr};
+  LayeredSample layered = {};
 
   void operator()(const PrimarySamples* x, PrimaryState& y, Rng& rng) {
     PrimarySampler sampler(x, y.numbers, small_step, rng);
     const Vec2 raster = scene->camera().raster().sample(sampler.next2());
     const double unit = radiance_scale(*scene) / estimator.own_scale();
     y.light.clear();
-    estimator(raster, sampler, rays, [&](const FoundLight& light) { y.add(light, unit); });
+    const auto take = [&](const FoundLight& light) { y.add(light, unit); };
+    if (finder.count() > 0)
+      layered(estimator, raster, sampler, rays, finder, take);
+    else
+      estimator(raster, sampler, rays, take);
     y.find_target();
   }
 };
@@ -41,16 +48,17 @@ struct PrimaryPaths {
 template <class Step>
 class PssmltKernel : public Step, public KernelDefaults {
  public:
-  /// `b` is that of the group of chains.
-  PssmltKernel(const Step& step, const LargeStepWeights& weights, double b)
+  /// `b` is that of the group of chains, `layers` the number of layers of light.
+  PssmltKernel(const Step& step, const LargeStepWeights& weights, double b, int layers)
       : Step(step),
         weights_(weights),
+        layers_(layers),
         large_step_weight_(weights.share / (step.large_probability() * b)) {}
 
   void record(ChainRecorder& recorder, const PrimaryState& x, double weight) const {
     const double denominator = weights_.denominator(x.target);
     for (const ImageLight& light : x.light)
-      recorder.record(light.raster, light.rgb / denominator, weight, denominator);
+      recorder.record(light.raster, light.rgb / denominator, weight, denominator, light.layers);
   }
   double proposal_weight() const { return this->last() == Step::large ? large_step_weight_ : 0; }
 
@@ -69,11 +77,13 @@ class PssmltKernel : public Step, public KernelDefaults {
   void load(ByteReader& bytes, PrimaryState& x) const {
     x.numbers.load(bytes);
     bytes.read(x.light);
+    for (const ImageLight& one : x.light) check_layers(one.layers, layers_);
     x.target = bytes.read<double>();
   }
 
  private:
   LargeStepWeights weights_;
+  int layers_;
   double large_step_weight_;
 };
 
@@ -84,6 +94,7 @@ class Pssmlt : public MetropolisAlgorithm {
   Pssmlt(ScenePtr scene, const PssmltSettings& settings)
       : scene_(std::move(scene)), settings_(settings) {}
 
+  void keep_layers(const LightLayers* layers) override { layers_ = layers; }
   void prepare(const CoarseImage& coarse, uint64_t, int, const std::atomic<bool>&) override {
     weights_.share = settings_.large_probability * coarse.b;
   }
@@ -125,7 +136,7 @@ class Pssmlt : public MetropolisAlgorithm {
 
  protected:
   PrimaryPaths<Estimator> paths() const {
-    return {scene_.get(), settings_.small_step, estimator()};
+    return {scene_.get(), settings_.small_step, estimator(), {}, LightLayers::Finder(layers_)};
   }
   const PssmltSettings& settings() const { return settings_; }
 
@@ -144,12 +155,14 @@ class Pssmlt : public MetropolisAlgorithm {
   }
   std::unique_ptr<RenderChain> chain(const ChainId& id, PrimaryState start) const {
     return std::make_unique<RecordedChain<PssmltKernel<Step>>>(
-        PssmltKernel<Step>(step(), weights_, id.b), id, std::move(start));
+        PssmltKernel<Step>(step(), weights_, id.b, layers_ ? layers_->count() : 0), id,
+        std::move(start));
   }
 
   ScenePtr scene_;
   PssmltSettings settings_;
   LargeStepWeights weights_;
+  const LightLayers* layers_ = nullptr;
 };
 
 /// Pssmlt over path tracing: the proposals of many chains are traced side by side.
@@ -192,6 +205,7 @@ class PssmltIntegrator : public Integrator {
       if (bidirectional) estimator_ = "bdpt";
     }
     metropolis_.only_camera_walks = estimator_ == "path";
+    metropolis_.light = light_layers(params);
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<MetropolisRendering>(scene, seed, metropolis_, algorithm(scene));
@@ -205,7 +219,7 @@ class PssmltIntegrator : public Integrator {
       refuse_one_ray(*scene);
       return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
     }
-    if (!settings_.path.waves || scene->camera().clips_far())
+    if (!settings_.path.waves || scene->camera().clips_far() || metropolis_.light.any())
       return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
     return std::make_unique<WalkPssmlt>(scene, settings_);
   }
@@ -223,6 +237,7 @@ Plugin integrator_pssmlt() {
       "Primary-sample-space Metropolis light transport (Kelemen et al. 2002): mutates the random "
       "numbers of another integrator. One spp is one mutation per pixel.",
       {path_parameters(),
+       light_parameters(),
        chain_parameters(256),
        family_parameters(),
        primary_step_parameters(),

@@ -9,7 +9,7 @@
 namespace mlt {
 namespace {
 
-struct LightIntegrator : SampledDefaults {
+struct LightIntegrator : LayeredDefaults {
   static PathRules settings(Params& params) { return path_rules(params); }
   static PathRules prepared(const PathRules& rules, const Scene& scene) {
     refuse_one_ray(scene);
@@ -29,7 +29,7 @@ Plugin integrator_ptracer() {
       "ptracer",
       "Light tracing: walks from the lights, connected to the lens at each vertex (Dutre et al. "
       "1993). One spp is one light path per pixel.",
-      {path_parameters()}));
+      {path_parameters(), light_parameters()}));
 }
 
 }  // namespace mlt

@@ -80,10 +80,10 @@ struct Groups {
 };
 
 struct GroupsOfRendering {
-  explicit GroupsOfRendering(const Rendering& rendering) {
+  GroupsOfRendering(const Rendering& rendering, int layer) {
     BlocksOfSequence sequence;
     for (int g = 0; g < Rendering::group_count; ++g) {
-      const GroupImage group = rendering.group(g);
+      const GroupImage group = rendering.group(g, layer);
       if (group.weight == 0) continue;
       size = Vec2i(group.image.width, group.image.height);
       grid = block_grid(group.image);
@@ -199,13 +199,13 @@ void count_pixels(const Image& image, ErrorEstimate& estimate) {
 
 }  // namespace
 
-ErrorEstimate estimate_error(const Rendering& rendering) {
+ErrorEstimate estimate_error(const Rendering& rendering, int layer) {
   std::vector<GroupsOfRendering> all;
-  all.emplace_back(rendering);
-  for (const Rendering* part : rendering.parts()) all.emplace_back(*part);
+  all.emplace_back(rendering, layer);
+  for (const Rendering* part : rendering.parts()) all.emplace_back(*part, layer);
   const GroupsOfRendering& groups = all[0];
   ErrorEstimate estimate;
-  count_pixels(rendering.image(), estimate);
+  count_pixels(rendering.image(layer), estimate);
   estimate.groups = groups.count();
   std::vector<const Groups*> parts_of_pixels, parts_of_blocks;
   for (const GroupsOfRendering& part : all) {
@@ -214,7 +214,7 @@ ErrorEstimate estimate_error(const Rendering& rendering) {
     parts_of_blocks.push_back(&part.blocks);
   }
   Total pixels(parts_of_pixels), blocks(parts_of_blocks);
-  if (const Image common = rendering.common_error(); !common.empty()) {
+  if (const Image common = rendering.common_error(layer); !common.empty()) {
     const std::vector<float> values = with_luminance(common);
     pixels.add_error(values);
     blocks.add_error(block_means(values, groups.size, groups.grid));

@@ -43,8 +43,9 @@ struct ErrorEstimate {
   int block_count() const { return blocks.width * blocks.height; }
 };
 
-/// Estimates the error group by group; costs about as much as developing the image once for each.
-ErrorEstimate estimate_error(const Rendering& rendering);
+/// Estimates the error of the image, or of one of its layers of light, group by group; costs about
+/// as much as developing the image once for each.
+ErrorEstimate estimate_error(const Rendering& rendering, int layer = Rendering::all_light);
 
 /// The estimate as layers of the image: "error" for pixels and "error_block", where each pixel has
 /// the error of its block. None if nothing is known.

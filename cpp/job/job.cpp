@@ -30,6 +30,15 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
   } catch (const std::bad_alloc&) {
     fail_for_memory();
   }
+  check_layer_names();
+}
+
+void Job::check_layer_names() const {
+  const LightLayers* light = rendering_->light_layers();
+  if (!light) return;
+  for (const Aov& aov : aovs_)
+    for (const std::string& name : light->names())
+      if (name == aov.name) throw UsageError("two layers are called '" + name + "'");
 }
 
 void Job::stop() {
@@ -106,6 +115,9 @@ size_t Job::bytes_for_the_end() const {
   const Vec2i size = scene_->camera().raster().size;
   size_t per_pixel = end_per_pixel + (alpha_ ? alpha_per_pixel : 0);
   for (const Aov& aov : aovs_) per_pixel += bytes_per_pixel(aov);
+  // the light and its error
+  if (rendering_ && rendering_->light_layers())
+    per_pixel += 2 * aov_per_pixel * rendering_->light_layers()->count();
   return end_at_least + per_pixel * size.x * size.y;
 }
 

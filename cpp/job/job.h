@@ -80,9 +80,11 @@ class Job {
   Image image_without_fireflies() const;
   /// Two halves of the image so far (see halves.h), or nothing.
   std::optional<Halves> halves() const;
-  /// Further images that the render was asked to keep, layers of the first surface (see aov.h),
-  /// alpha, and the error of the image, so far.
+  /// Further images that the render was asked to keep, layers of light with the errors of those of
+  /// lamps, layers of the first surface (see aov.h), alpha, and the error of the image, so far.
   std::vector<NamedImage> layers() const;
+  /// The light of each lamp so far, if it is kept (see light_layers.h): it adds up to the image.
+  std::vector<NamedImage> light() const;
   bool has_alpha() const { return alpha_; }
   /// The error of the image so far; after the end it is estimated only once.
   std::shared_ptr<const ErrorEstimate> error() const;
@@ -126,6 +128,8 @@ class Job {
   void let_savers_in();
   std::string state() const;
   std::vector<NamedImage> first_surface_layers() const;
+  std::vector<NamedImage> light_layers() const;
+  void check_layer_names() const;
   double seconds_so_far() const;
 
   ScenePtr scene_;

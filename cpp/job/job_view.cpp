@@ -74,12 +74,35 @@ std::vector<NamedImage> Job::first_surface_layers() const {
   return layers;
 }
 
+std::vector<NamedImage> Job::light() const {
+  check_here();
+  const LightLayers* light = rendering_->light_layers();
+  std::vector<NamedImage> lamps;
+  const std::lock_guard lock(merging_);
+  for (int i = 0; light && i < light->group_count(); ++i)
+    lamps.push_back({light->names()[i], rendering_->image(i)});
+  return lamps;
+}
+
+std::vector<NamedImage> Job::light_layers() const {
+  const LightLayers* light = rendering_->light_layers();
+  if (!light) return {};
+  std::vector<NamedImage> layers;
+  for (int i = 0; i < light->count(); ++i)
+    layers.push_back({light->names()[i], rendering_->image(i)});
+  for (int i = 0; i < light->group_count(); ++i)
+    if (Image error = estimate_error(*rendering_, i).pixels; !error.empty())
+      layers.push_back({"error." + light->names()[i], std::move(error)});
+  return layers;
+}
+
 std::vector<NamedImage> Job::layers() const {
   check_here();
   std::vector<NamedImage> layers;
   {
     const std::lock_guard lock(merging_);
     layers = rendering_->layers();
+    for (NamedImage& layer : light_layers()) layers.push_back(std::move(layer));
   }
   {
     const std::lock_guard lock(aov_mutex_);
@@ -103,6 +126,8 @@ Stats Job::stats() const {
   stats.version = MLT_VERSION;
   stats.integrator = integrator_->name();
   stats.seed = seed_;
+  if (const LightLayers* light = rendering_->light_layers())
+    stats.light_groups = {light->names().begin(), light->names().begin() + light->group_count()};
   stats.width = scene_->camera().raster().size.x;
   stats.height = scene_->camera().raster().size.y;
   if (const size_t needed = bytes_needed(); available_ > 0 && needed > available_)

@@ -35,6 +35,15 @@ void inherit(Node& node, const Node& own, const Schema& schema) {
       node.properties.push_back(*property);
 }
 
+/// The names of the integrators that have a parameter.
+std::string those_with(const Registry& registry, const std::string& parameter) {
+  std::string names;
+  for (const std::string& name : registry.names("integrator"))
+    if (registry.find("integrator", name, {}).schema.find(parameter))
+      names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
 Json describe(const Node& node, const Registry& registry) {
   const Schema& schema = registry.find(node.family, node.type, node.where).schema;
   Json json;
@@ -75,6 +84,25 @@ MadeIntegrator make_integrator(const Node& given, const Registry& registry) {
   if (const Node::Property* hides = find(node, "hide_emitters"))
     made.hide_emitters = std::get<bool>(hides->value);
   return made;
+}
+
+MadeIntegrator with_light_layers(const MadeIntegrator& made, const LightLayerSettings& layers,
+                                 const Registry& registry) {
+  if (!layers.any()) return made;
+  if (made.extra_mutations)
+    throw UsageError(
+        "give light_groups and light_layers to the integrator, beside its mutations in Python");
+  Node node = made.node;
+  const Schema& schema = registry.find(node.family, node.type, node.where).schema;
+  if (!schema.find("light_groups"))
+    throw UsageError("'" + schema.name + "' keeps no layers of light; those that do are " +
+                     those_with(registry, "light_groups"));
+  if (layers.groups) assign(node, "light_groups", "true", schema);
+  if (!layers.classes.empty()) assign(node, "light_layers", layers.text(), schema);
+  MadeIntegrator layered = make_integrator(node, registry);
+  layered.aovs = made.aovs;
+  layered.warnings = made.warnings;
+  return layered;
 }
 
 std::string integrator_problem(const LoadedScene& loaded, const Registry& registry) {

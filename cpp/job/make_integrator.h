@@ -36,6 +36,10 @@ Node choose_integrator(const LoadedScene& loaded, const std::string& name,
 std::string integrator_problem(const LoadedScene& loaded, const Registry& registry);
 
 MadeIntegrator make_integrator(const Node& node, const Registry& registry);
+/// Makes it again with layers of light: the parameters light_groups and light_layers. Throws
+/// UsageError if it cannot keep them.
+MadeIntegrator with_light_layers(const MadeIntegrator& made, const LightLayerSettings& layers,
+                                 const Registry& registry);
 /// The node that makes it again. Throws UsageError if it has mutations that no node can describe.
 const Node& node_of(const MadeIntegrator& made);
 /// Adds mutations; the settings list their names and weights as "extra_mutations".

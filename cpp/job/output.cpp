@@ -92,6 +92,8 @@ Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const Ma
                   {"integrator", made.settings.text()},
                   {"seed", fmt::format("{}", stats.seed)},
                   {"spp", fmt::format("{}", stats.spp_done)}};
+  if (!stats.light_groups.empty())
+    all.emplace_back("light_groups", fmt::format("{}", fmt::join(stats.light_groups, " ")));
   for (auto& text : cryptomatte_metadata(settings)) all.push_back(std::move(text));
   return all;
 }

@@ -22,7 +22,7 @@ void check_pixel(const Scene& scene, const Vec2i& pixel);
 Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrator& made);
 
 /// Metadata: version, hash of the scene, settings of the integrator, seed and samples per pixel;
-/// and what describes Cryptomattes among the layers.
+/// the names of the layers of lamps, and what describes Cryptomattes among the layers.
 /// No date, host or number of threads: equal renders are equal files.
 Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const MadeIntegrator& made,
                          const RenderSettings& settings);

@@ -11,6 +11,19 @@
 
 namespace mlt {
 
+/// Watches walks from the camera as `Watcher` does, and tells what they find.
+template <class Watcher, class Found>
+struct LightFinder : Watcher {
+  LightFinder(const Watcher& watcher, Found& f, const Vec2& r)
+      : Watcher(watcher), found(f), raster(r) {}
+  double find(const CameraWalk& walk, const Color& radiance, double certainty) const {
+    found(FoundLight{{raster, radiance, true}, walk.survival, certainty});
+    return 1;
+  }
+  Found& found;
+  Vec2 raster;
+};
+
 /// An estimator has
 ///
 ///     template <class Sampler, class Found>
@@ -19,8 +32,21 @@ namespace mlt {
 /// and the light that it finds at its own position, times own_scale(), is radiance.
 struct Estimator {
   double own_scale() const { return 1; }
-  /// Where the paths of a sample are recorded for a replay, by those that can.
+  /// Where the paths of a sample are recorded, for a replay or to know their layers.
   std::vector<FoundPath>* paths = nullptr;
+
+ protected:
+  /// Calls trace(watcher) for a sample that begins at this ray; the watcher tells what is found,
+  /// and records it.
+  template <class Found, class Trace>
+  void watch(const Scene& scene, const Vec2& raster, const CameraRay& start, Found& found,
+             Trace&& trace) const {
+    if (paths)
+      trace(LightFinder<PathRecorder, Found>{
+          {scene, raster, start.lens.at, start.ray.time, *paths}, found, raster});
+    else
+      trace(LightFinder<IgnorePaths, Found>{{}, found, raster});
+  }
 };
 
 class PathEstimator : public Estimator {
@@ -35,29 +61,11 @@ class PathEstimator : public Estimator {
     CameraWalk walk(start.ray);
     walk.mis = MisExponent(heuristic_);
     walk.certainty = heuristic_ == Heuristic::balance;
-    const auto trace = [&](auto&& watcher) {
-      trace_path(*scene_, rules_, walk, sampler, rays, watcher);
-    };
-    if (paths)
-      trace(Finder<PathRecorder, Found>{
-          {*scene_, raster, start.lens.at, start.ray.time, *paths}, found, raster});
-    else
-      trace(Finder<IgnorePaths, Found>{{}, found, raster});
+    watch(*scene_, raster, start, found,
+          [&](auto&& watcher) { trace_path(*scene_, rules_, walk, sampler, rays, watcher); });
   }
 
  private:
-  template <class Watcher, class Found>
-  struct Finder : Watcher {
-    Finder(const Watcher& watcher, Found& f, const Vec2& r)
-        : Watcher(watcher), found(f), raster(r) {}
-    double find(const CameraWalk& walk, const Color& radiance, double certainty) const {
-      found(FoundLight{{raster, radiance, true}, walk.survival, certainty});
-      return 1;
-    }
-    Found& found;
-    Vec2 raster;
-  };
-
   const Scene* scene_;
   PathRules rules_;
   Heuristic heuristic_;

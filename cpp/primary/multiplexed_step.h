@@ -8,6 +8,7 @@
 #pragma once
 
 #include "markov/step.h"
+#include "path/light_layers.h"
 #include "path/path_terms.h"
 #include "primary/primary_samples.h"
 #include "primary/technique_choice.h"
@@ -23,8 +24,10 @@ struct MultiplexedState {
   Color rgb{0};                    ///< f / p, weighted among techniques.
   double target = 0;               ///< L* of rgb.
   double target_over_density = 0;  ///< See ClampingWeights.
+  LayerMask layers = 0;            ///< Layers of its path.
 
   void clear() {
+    layers = 0;
     rgb = Color(0);
     target = target_over_density = 0;
   }
@@ -51,6 +54,8 @@ struct MultiplexedPaths {
   BidirectionalSampler paths;  ///< Without Russian roulette: the technique fixes the walks.
   SmallStep small_step;
   RayCounts rays = {};
+  LightLayers::Finder finder{nullptr};
+  Path found = {};  ///< Scratch space.
 
   /// Makes the path of numbers near x, or of fresh ones if x is nullptr.
   void operator()(const PrimarySamples* x, MultiplexedState& y, Rng& rng) {
@@ -69,6 +74,9 @@ struct MultiplexedPaths {
     paths.sample_technique(y.technique, sampler, rays, [&](const Connection& c) {
       y.show(c);
       if (path) paths.assemble(c, *path);
+      if (finder.count() == 0) return;
+      paths.assemble(c, found);
+      y.layers = finder.of(found);
     });
     if (x) y.numbers.add_rest(*x);
   }

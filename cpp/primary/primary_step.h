@@ -20,16 +20,18 @@ struct PrimaryState {
   double target = 0;              ///< Sum of L* of `light`; NaN if the estimator failed.
 
   /// Adds the light of a path, which is divided by `unit` where it is at the sample's own position:
-  /// there all light is one entry.
+  /// there all light of the same layers is one entry.
   void add(const ImageLight& found, double unit) {
     if (is_black(found.rgb)) return;
     if (!found.own_pixel) return light.push_back(found);
-    const auto is_own = [](const ImageLight& one) { return one.own_pixel; };
+    const auto is_own = [&](const ImageLight& one) {
+      return one.own_pixel && one.layers == found.layers;
+    };
     const auto own = std::find_if(light.rbegin(), light.rend(), is_own);
     if (own != light.rend())
       own->rgb += found.rgb / unit;
     else
-      light.push_back({found.raster, found.rgb / unit, true});
+      light.push_back({found.raster, found.rgb / unit, true, found.layers});
   }
   void find_target() {
     target = 0;

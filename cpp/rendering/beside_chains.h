@@ -78,31 +78,26 @@ class ClampedSum {
   class Sample {
    public:
     Sample(ClampedSum& of, const Vec2& raster, SampleSink& sink)
-        : of_(&of), raster_(raster), sink_(&sink) {}
+        : of_(&of), sink_(&sink), light_(raster, of.scale_, sink) {}
     void add(const FoundLight& light) {
       of_->targeting_.add(light, [&](const FoundLight& found) { show(found); });
     }
     void finish() {
       of_->targeting_.finish([&](const FoundLight& found) { show(found); });
-      sink_->add(raster_, own_pixel_ * of_->scale_);
+      light_.finish();
       sink_->add_sums(sum_.brightness, sum_.of_chains);
     }
 
    private:
     void show(const FoundLight& found) {
       if (!found.valid()) return sink_->count_invalid();
-      const Color weighted = found.rgb * of_->weights_.of_sample(found.target_over_density);
-      if (found.own_pixel)
-        own_pixel_ += weighted;
-      else
-        sink_->splat(found.raster, weighted);
+      light_.add(found, found.rgb * of_->weights_.of_sample(found.target_over_density));
       sum_.add(found, of_->weights_);
     }
 
     ClampedSum* of_;
-    Vec2 raster_;
     SampleSink* sink_;
-    Color own_pixel_{0};
+    SampleLight light_;
     SampleWeights sum_;
   };
 

@@ -2,12 +2,38 @@
 #pragma once
 
 #include "path/estimators.h"
+#include "path/layered_sample.h"
 #include "rendering/sampled_rendering.h"
 
 namespace mlt {
 
 /// The wave of estimators that have none.
 struct NoWave {};
+
+/// Adds the light of one sample to the image and to its layers of light.
+class SampleLight {
+ public:
+  /// Light at the sample's own position, times own_scale, is radiance.
+  SampleLight(const Vec2& raster, double own_scale, SampleSink& sink)
+      : raster_(raster), own_scale_(own_scale), sink_(&sink), layers_(sink.finder().count()) {}
+  /// Adds light with this weighted colour.
+  void add(const ImageLight& light, const Color& rgb) {
+    if (!light.own_pixel) return sink_->splat(light.raster, rgb, light.layers);
+    own_pixel_ += rgb;
+    for_each_layer(light.layers, [&](int i) { layers_[i] += rgb; });
+  }
+  void finish() {
+    for (Color& layer : layers_) layer *= own_scale_;
+    sink_->add(raster_, own_pixel_ * own_scale_, layers_);
+  }
+
+ private:
+  Vec2 raster_;
+  double own_scale_;
+  SampleSink* sink_;
+  Color own_pixel_{0};
+  std::vector<Color> layers_;
+};
 
 /// Samples of the image alone: their light is added as it is.
 class ImageSum {
@@ -18,20 +44,12 @@ class ImageSum {
   class Sample {
    public:
     Sample(const ImageSum& of, const Vec2& raster, SampleSink& sink)
-        : own_scale_(of.own_scale_), raster_(raster), sink_(&sink) {}
-    void add(const FoundLight& light) {
-      if (light.own_pixel)
-        own_pixel_ += light.rgb;
-      else
-        sink_->splat(light.raster, light.rgb);
-    }
-    void finish() { sink_->add(raster_, own_pixel_ * own_scale_); }
+        : light_(raster, of.own_scale_, sink) {}
+    void add(const FoundLight& light) { light_.add(light, light.rgb); }
+    void finish() { light_.finish(); }
 
    private:
-    double own_scale_;
-    Vec2 raster_;
-    SampleSink* sink_;
-    Color own_pixel_{0};
+    SampleLight light_;
   };
 
  private:
@@ -49,14 +67,20 @@ class EstimatorTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     typename Sum::Sample sample(sum_, raster, sink);
-    estimator_.paths = sink.paths();
-    estimator_(raster, sampler, rays, [&](const FoundLight& light) { sample.add(light); });
+    const auto take = [&](const FoundLight& light) { sample.add(light); };
+    if (sink.finder().count() > 0) {
+      layered_(estimator_, raster, sampler, rays, sink.finder(), take);
+    } else {
+      estimator_.paths = sink.paths();
+      estimator_(raster, sampler, rays, take);
+    }
     sample.finish();
   }
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (!wave_) return SampleTaker::sample_cells(cells, streams, sink, rays);
+    if (!wave_ || sink.finder().count() > 0)
+      return SampleTaker::sample_cells(cells, streams, sink, rays);
     if constexpr (!std::is_same_v<Wave, NoWave>) {
       for_each_packet_cell(cells, [&](const Vec2i& cell) {
         wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
@@ -82,6 +106,7 @@ class EstimatorTaker : public SampleTaker {
   Estimator estimator_;
   Sum sum_;
   std::unique_ptr<Wave> wave_;
+  LayeredSample layered_;
 };
 
 /// Renders the image by an estimator alone.

@@ -15,6 +15,16 @@ Image Rendering::shown(Image image) const {
   return image;
 }
 
+void Rendering::keep_light_layers(const LightLayerSettings& settings) {
+  if (settings.any()) light_layers_ = std::make_unique<LightLayers>(scene(), settings);
+}
+
+Image Rendering::sum_of_lamps() const {
+  Image sum = image(0);
+  for (int layer = 1; layer < light_layers_->group_count(); ++layer) sum += image(layer);
+  return sum;
+}
+
 Replay Rendering::replay(const Vec2i& /*pixel*/, uint64_t /*sample*/) {
   throw UsageError(
       "this integrator takes no samples of single pixels to be replayed; path, direct, "

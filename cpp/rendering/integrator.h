@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "mutation/extra_mutation.h"
 #include "path/inspect.h"
+#include "path/light_layers.h"
 #include "rendering/plan.h"
 #include "rendering/stats.h"
 #include "scene/scene.h"
@@ -64,16 +65,21 @@ class Rendering {
   /// Renders one unit; does nothing if the unit has been done already.
   virtual void run_unit(uint64_t unit) = 0;
 
-  /// The image after the units that have finished, linear RGB.
-  virtual Image image() const = 0;
-  virtual GroupImage group(int index) const = 0;
+  /// The layers of light that it keeps, or nullptr.
+  const LightLayers* light_layers() const { return light_layers_.get(); }
+  static constexpr int all_light = -1;
+
+  /// The image after the units that have finished, linear RGB, or one of its layers of light. Where
+  /// there are layers of lamps, the image is their sum.
+  virtual Image image(int layer = all_light) const = 0;
+  virtual GroupImage group(int index, int layer = all_light) const = 0;
   /// Whether the groups are blocks of one sequence in each pixel, and not independent.
   virtual bool groups_share_sequence() const { return false; }
   /// Renderings with groups of their own, whose images are parts of the image of this one.
   virtual std::vector<const Rendering*> parts() const { return {}; }
   /// The standard error that is common to all groups, which their spread does not include; may be
   /// empty.
-  virtual Image common_error() const { return {}; }
+  virtual Image common_error(int /*layer*/ = all_light) const { return {}; }
   /// Further images that the render was asked to keep.
   virtual std::vector<NamedImage> layers() const { return {}; }
   virtual void add_stats(Stats& stats) const = 0;
@@ -98,11 +104,18 @@ class Rendering {
   const Scene& scene() const { return *scene_; }
   /// A film's image in linear sRGB.
   Image shown(Image recorded) const;
+  void keep_light_layers(const LightLayerSettings& settings);
+  /// Whether this image is the sum of the layers of lamps.
+  bool is_sum(int layer) const {
+    return layer == all_light && light_layers_ && light_layers_->group_count() > 0;
+  }
+  Image sum_of_lamps() const;
 
   ScenePtr scene_;
   uint64_t seed_;
   Plan plan_;
   double preparation_seconds_ = std::numeric_limits<double>::infinity();
+  std::unique_ptr<const LightLayers> light_layers_;
 };
 
 class Integrator : public Object {

@@ -42,6 +42,9 @@ class MetropolisAlgorithm {
   virtual bool set_techniques(SampleTechniques techniques) {
     return techniques == SampleTechniques::all;
   }
+  /// Called first, with the layers whose masks states are to have where they know no paths, or
+  /// nullptr.
+  virtual void keep_layers(const LightLayers* /*layers*/) {}
   /// The name of the chosen samples, where there is a choice.
   virtual std::string samples_name() const { return ""; }
   /// The source of the samples that go to the image, for the pilot.

@@ -9,6 +9,7 @@
 #include "markov/chain.h"
 #include "markov/clamping_weights.h"
 #include "math/weight_sums.h"
+#include "path/light_layers.h"
 #include "path/ray_counts.h"
 #include "rendering/stats.h"
 
@@ -22,9 +23,11 @@ namespace mlt {
 class ChainRecorder {
  public:
   virtual ~ChainRecorder() = default;
-  /// Records RGB / T of a state, its expected weight, and its T / P (see ClampingWeights).
+  /// Records RGB / T of a state, its expected weight, its T / P (see ClampingWeights), and its
+  /// layers_of().
   virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
-                      double target_over_density) = 0;
+                      double target_over_density, LayerMask layers) = 0;
+  virtual LayerMask layers_of(const Path& /*path*/) { return 0; }
   /// Whether record() uses T / P.
   virtual bool wants_density() const { return true; }
   /// Called when a chain pauses.
@@ -35,19 +38,31 @@ class ChainRecorder {
 /// pixel comes from memory.
 class FilmRecorder : public ChainRecorder {
  public:
-  FilmRecorder(SplatFilm& film, int group, const ClampingWeights& weights)
-      : film_(&film), group_(group), weights_(&weights) {}
+  using Films = std::vector<std::unique_ptr<SplatFilm>>;
+
+  /// `light_films`: one for each of the layers of light.
+  FilmRecorder(SplatFilm& film, const LightLayers* light, const Films& light_films, int group,
+               const ClampingWeights& weights)
+      : film_(&film),
+        finder_(light),
+        light_films_(&light_films),
+        group_(group),
+        weights_(&weights) {}
+  LayerMask layers_of(const Path& path) override { return finder_.of(path); }
   void record(const Vec2& raster, const Color& rgb_per_target, double weight,
-              double target_over_density) override {
+              double target_over_density, LayerMask layers) override {
     for (int i = 0; i < film_->splat_rows(); ++i)
       __builtin_prefetch(film_->splat_row(group_, raster, i), 1);
     flush();
     raster_ = raster;
+    layers_ = layers;
     color_ = rgb_per_target * (weight * weights_->of_chain(target_over_density));
     brightness_ += target_luminance(color_);
   }
   void flush() override {
-    if (!is_black(color_)) film_->add(group_, raster_, color_);
+    if (is_black(color_)) return;
+    film_->add(group_, raster_, color_);
+    for_each_layer(layers_, [&](int i) { (*light_films_)[i]->add(group_, raster_, color_); });
     color_ = Color(0);
   }
   bool wants_density() const override { return weights_->threshold() > 0; }
@@ -56,10 +71,13 @@ class FilmRecorder : public ChainRecorder {
 
  private:
   SplatFilm* film_;
+  LightLayers::Finder finder_;
+  const Films* light_films_;
   int group_;
   const ClampingWeights* weights_;
   Vec2 raster_{0};
   Color color_{0};
+  LayerMask layers_ = 0;
   double brightness_ = 0;
 };
 

@@ -23,7 +23,15 @@ MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
       algorithm_(std::move(algorithm)),
       direct_(std::move(direct)),
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
-            scene_->film().filter, group_count, scene_->camera().raster().border > 0) {}
+            scene_->film().filter, group_count, scene_->camera().raster().border > 0) {
+  keep_light_layers(settings.light);
+  algorithm_->keep_layers(light_layers());
+  if (light_layers_)
+    for (int i = 0; i < light_layers_->count(); ++i)
+      light_films_.push_back(std::make_unique<SplatFilm>(
+          scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
+          group_count, scene_->camera().raster().border > 0));
+}
 
 int MetropolisRendering::chains_of(int group) const {
   return (settings_.chains + group_count - 1 - group) / group_count;
@@ -52,7 +60,7 @@ void MetropolisRendering::lay_out() {
   samples_.reset();
   if (allocation_.share > 0)
     samples_ = std::make_unique<SampledRendering>(
-        scene_, seed_, SampledSettings{true, {}, passes_per_turn()},
+        scene_, seed_, SampledSettings{true, {}, passes_per_turn(), false, settings_.light},
         [this](const Scene&) { return algorithm_->sample_taker(allocation_.weights); });
   plan_.borders.clear();
   for (uint64_t strand = 0; strand <= sample_strands(); ++strand) plan_.borders.push_back(strand);
@@ -121,7 +129,8 @@ void MetropolisRendering::lay_out_units() {
 /// samples come beside them: six floats a pixel for each group, that is as much.
 Rendering::Memory MetropolisRendering::memory(double /*spp*/) const {
   const Vec2i size = scene().camera().raster().size;
-  const size_t chains = size_t{24} * group_count * size.x * size.y;
+  const size_t films = 1 + light_films_.size(),
+               chains = size_t{24} * group_count * films * size.x * size.y;
   const size_t samples = settings_.independent_share == 0 ? 0 : chains;
   return {chains + samples, samples};
 }
@@ -150,7 +159,7 @@ void MetropolisRendering::run_batch(uint64_t number) {
       team.turn.notify_all();
     }
   } done{team};
-  FilmRecorder recorder(film_, team.group, allocation_.weights);
+  FilmRecorder recorder(film_, light_layers_.get(), light_films_, team.group, allocation_.weights);
   std::vector<ChainVisit> visits;
   for (const auto& chain : team.chains) visits.push_back({chain.get(), &recorder});
   algorithm_->advance(visits, steps_per_unit_);
@@ -180,9 +189,9 @@ GroupEstimator MetropolisRendering::group_estimator() const {
 }
 
 /// A pixel's value is the pixel count times the light that falls into it.
-Image MetropolisRendering::chain_image(GroupWeights scales) const {
+Image MetropolisRendering::chain_image(GroupWeights scales, int layer) const {
   for (double& scale : scales) scale *= pixels();
-  return shown(film_.image(scales));
+  return shown(film_of(layer).image(scales));
 }
 
 std::vector<const Rendering*> MetropolisRendering::parts() const {
@@ -192,28 +201,29 @@ std::vector<const Rendering*> MetropolisRendering::parts() const {
   return parts;
 }
 
-Image MetropolisRendering::image() const {
-  Image image = chain_image(group_estimator().mean());
-  for (const Rendering* part : parts()) image += part->image();
+Image MetropolisRendering::image(int layer) const {
+  if (is_sum(layer)) return sum_of_lamps();
+  Image image = chain_image(group_estimator().mean(), layer);
+  for (const Rendering* part : parts()) image += part->image(layer);
   return image;
 }
 
-GroupImage MetropolisRendering::group(int index) const {
+GroupImage MetropolisRendering::group(int index, int layer) const {
   const GroupEstimator groups = group_estimator();
   const MeanSums b = progress()[index].bootstrap.brightness;
-  return {chain_image(groups.group(index)), groups.begun(index) ? 1.0 : 0.0, b.mean(),
+  return {chain_image(groups.group(index), layer), groups.begun(index) ? 1.0 : 0.0, b.mean(),
           std::sqrt(b.variance_of_mean())};
 }
 
-Image MetropolisRendering::common_error() const {
+Image MetropolisRendering::common_error(int layer) const {
   if (!samples_) return {};
   const GroupEstimator groups = group_estimator();
-  Image error = chain_image(groups.common_error());
+  Image error = chain_image(groups.common_error(), layer);
   if (const double excess = groups.excess(); excess > 0) {
-    const Image whole = image();
-    const double share = excess * sum(chain_image(groups.mean())) / sum(whole);
+    const Image shown = image(layer);
+    const double share = excess * sum(chain_image(groups.mean(), all_light)) / sum(image());
     for (size_t i = 0; i < error.data.size(); ++i)
-      error.data[i] += static_cast<float>(share * whole.data[i]);
+      error.data[i] += static_cast<float>(share * shown.data[i]);
   }
   return error;
 }
@@ -221,7 +231,7 @@ Image MetropolisRendering::common_error() const {
 std::vector<NamedImage> MetropolisRendering::layers() const {
   if (!settings_.parts) return {};
   const Vec2i size = scene_->camera().raster().size;
-  return {{"chains", chain_image(group_estimator().mean())},
+  return {{"chains", chain_image(group_estimator().mean(), all_light)},
           {"samples", samples_ ? samples_->image() : Image(size.x, size.y, 3)}};
 }
 

@@ -36,6 +36,7 @@ struct MetropolisSettings {
   std::optional<double> steps_per_start;       ///< Steps of tours per sample that they start from.
   bool parts = false;              ///< Whether to keep the images of samples and chains as layers.
   bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
+  LightLayerSettings light;        ///< Only where chains and samples tell the layers of paths.
 };
 
 class MetropolisRendering : public Rendering {
@@ -46,11 +47,11 @@ class MetropolisRendering : public Rendering {
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
   Memory memory(double spp) const override;
   void run_unit(uint64_t unit) override;
-  Image image() const override;
+  Image image(int layer = all_light) const override;
   /// The image of one group of chains.
-  GroupImage group(int index) const override;
+  GroupImage group(int index, int layer = all_light) const override;
   std::vector<const Rendering*> parts() const override;
-  Image common_error() const override;
+  Image common_error(int layer = all_light) const override;
   std::vector<NamedImage> layers() const override;
   void add_stats(Stats& stats) const override;
   std::string save(const Task& task, Content content) const override;
@@ -96,7 +97,10 @@ class MetropolisRendering : public Rendering {
   void form_teams(int group);
   void lay_out_units();
   void run_batch(uint64_t number);
-  Image chain_image(GroupWeights scales) const;
+  const SplatFilm& film_of(int layer) const {
+    return layer == all_light ? film_ : *light_films_[layer];
+  }
+  Image chain_image(GroupWeights scales, int layer) const;
   /// The sums of each group; the bootstrap of tours consists of the samples that they start from.
   std::vector<GroupProgress> progress() const;
   GroupEstimator group_estimator() const;
@@ -114,6 +118,7 @@ class MetropolisRendering : public Rendering {
   SeparateDirect direct_;
   std::unique_ptr<SampledRendering> samples_;  ///< nullptr: there are none.
   SplatFilm film_;
+  FilmRecorder::Films light_films_;
   /// The chains of groups that have found light, group after group: the film of one group then
   /// stays in the cache while its chains advance.
   std::vector<std::unique_ptr<ChainBatch>> teams_;

@@ -83,7 +83,10 @@ void MetropolisRendering::save_chains(const Strands& strands, Content content,
     groups = {teams_[strands.first]->group, teams_[strands.last - 1]->group + 1};
   bytes.write(groups);
   for (int g = groups.first; g < groups.last; ++g) bytes.write(groups_[g].steps.load());
-  bytes.write(content != Content::task ? film_.save(groups.first, groups.last) : std::string());
+  const bool sums = content != Content::task;
+  bytes.write(sums ? film_.save(groups.first, groups.last) : std::string());
+  for (const auto& film : light_films_)
+    bytes.write(sums ? film->save(groups.first, groups.last) : std::string());
 }
 
 void MetropolisRendering::load(const std::string& state) {
@@ -124,7 +127,11 @@ void MetropolisRendering::load_chains(ByteReader& bytes) {
   for (int g = groups.first; g < groups.last; ++g) steps.push_back(bytes.read<uint64_t>());
   std::string film;
   bytes.read(film);
+  std::vector<std::string> light(light_films_.size());
+  for (std::string& light_film : light) bytes.read(light_film);
   if (!film.empty()) film_.merge(groups.first, groups.last, film);
+  for (size_t i = 0; i < light.size(); ++i)
+    if (!light[i].empty()) light_films_[i]->merge(groups.first, groups.last, light[i]);
   for (size_t i = 0; i < steps.size(); ++i) groups_[groups.first + i].steps += steps[i];
   for (uint64_t i = strands.first; i < strands.last; ++i) {
     ChainBatch& team = *teams_[i];

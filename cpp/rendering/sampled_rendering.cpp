@@ -40,6 +40,12 @@ SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, const SampledS
       layers_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
               scene_->film().filter, static_cast<int>(layer_names_.size()),
               scene_->camera().raster().border > 0) {
+  keep_light_layers(settings.light);
+  if (light_layers_)
+    for (int i = 0; i < light_layers_->count(); ++i)
+      light_films_.push_back(std::make_unique<SampleFilm>(
+          scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
+          group_count, settings.splats, scene_->camera().raster().border > 0));
   plan_ = plan_of(film_, passes_per_turn_);
 }
 
@@ -53,7 +59,8 @@ SampledRendering::Place SampledRendering::place_of(uint64_t pass) const {
 Rendering::Memory SampledRendering::memory(double spp) const {
   const double turns = std::ceil(spp / static_cast<double>(passes_per_turn_));
   const auto groups = static_cast<size_t>(std::min(turns, double{group_count}));
-  return {groups * film_.bytes_per_group(), groups * film_.bytes_per_group()};
+  const size_t bytes = groups * film_.bytes_per_group() * (1 + light_films_.size());
+  return {bytes, bytes};
 }
 
 Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
@@ -74,11 +81,15 @@ void SampledRendering::run_unit(uint64_t unit) {
   const uint64_t order = place.index * tiles + tile_index;
   if (film_.has(place.group, order, tile_index)) return;
   SampleFilm::Tile tile = film_.begin(tile_index);
+  std::vector<SampleFilm::Tile> light_tiles;
+  for (const auto& film : light_films_) light_tiles.push_back(film->begin(tile_index));
   RayCounts rays;
-  SampleSink sink(tile, layers_);
+  SampleSink sink(tile, layers_, light_layers_.get(), light_tiles);
   const std::unique_ptr<SampleTaker> taker = make_taker_(scene());
   taker->sample_cells(tile.cells(), streams(pass), sink, rays);
   taker->finish(sink, rays);
+  for (size_t i = 0; i < light_films_.size(); ++i)
+    light_films_[i]->commit(place.group, order, tile_index, std::move(light_tiles[i]), 1);
   film_.commit(place.group, order, tile_index, std::move(tile), 1);
   invalid_ += sink.invalid();
   intersect_ += rays.intersect;
@@ -134,6 +145,7 @@ std::string SampledRendering::save(const Task& task, Content content) const {
   ByteWriter bytes;
   bytes.write(task);
   bytes.write(film_.save(selection(task)));
+  for (const auto& film : light_films_) bytes.write(film->save(selection(task)));
   bytes.write(sums ? Counts{intersect_, occluded_, invalid_} : Counts{});
   bytes.write(sums ? layers_.save(0, layers_.group_count()) : std::string());
   return bytes.take();
@@ -143,11 +155,14 @@ void SampledRendering::load(const std::string& state) {
   ByteReader bytes(state);
   const auto task = bytes.read<Task>();
   std::string film, layers;
+  std::vector<std::string> light(light_films_.size());
   bytes.read(film);
+  for (std::string& light_film : light) bytes.read(light_film);
   const auto counts = bytes.read<Counts>();
   bytes.read(layers);
   bytes.finish();
   film_.load(film, selection(task));
+  for (size_t i = 0; i < light.size(); ++i) light_films_[i]->load(light[i], selection(task));
   if (!layers.empty()) layers_.merge(0, layers_.group_count(), layers);
   intersect_ += counts[0];
   occluded_ += counts[1];

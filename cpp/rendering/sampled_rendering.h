@@ -18,7 +18,9 @@ namespace mlt {
 /// there is no film; its paths are recorded instead.
 class SampleSink {
  public:
-  SampleSink(SampleFilm::Tile& tile, SplatFilm& layers) : tile_(&tile), layers_(&layers) {}
+  SampleSink(SampleFilm::Tile& tile, SplatFilm& layers, const LightLayers* light,
+             std::vector<SampleFilm::Tile>& light_tiles)
+      : tile_(&tile), layers_(&layers), finder_(light), light_tiles_(&light_tiles) {}
   explicit SampleSink(Replay& replay) : replay_(&replay) {}
 
   /// Adds radiance at the sampled raster position.
@@ -29,14 +31,24 @@ class SampleSink {
     else
       replay_->radiance += radiance;
   }
+  /// As above, with the radiance of each layer of light.
+  void add(const Vec2& raster, const Color& radiance, const std::vector<Color>& of_layers) {
+    const uint64_t invalid_before = invalid_;
+    add(raster, radiance);
+    if (invalid_ > invalid_before) return;
+    for (size_t i = 0; i < of_layers.size(); ++i)
+      if (!is_black(of_layers[i])) (*light_tiles_)[i].add(raster, of_layers[i]);
+  }
   /// Adds values that are no light, and may be negative.
   void add_signed(const Vec2& raster, const Color& values) {
     if (!is_finite(values)) return count_invalid();
     if (tile_) tile_->add(raster, values);
   }
   /// Adds a contribution of light tracing, over its density, anywhere on the image.
-  void splat(const Vec2& raster, const Color& contribution) {
-    if (valid(contribution) && tile_) tile_->splat(raster, contribution);
+  void splat(const Vec2& raster, const Color& contribution, LayerMask layers = 0) {
+    if (!valid(contribution) || !tile_) return;
+    tile_->splat(raster, contribution);
+    for_each_layer(layers, [&](int i) { (*light_tiles_)[i].splat(raster, contribution); });
   }
   /// Adds a contribution of light tracing to a layer of the film.
   void splat_layer(int layer, const Vec2& raster, const Color& contribution) {
@@ -49,6 +61,8 @@ class SampleSink {
   void count_invalid() { ++invalid_; }
   /// Where found paths are recorded; usually nullptr.
   std::vector<FoundPath>* paths() { return replay_ ? &replay_->paths : nullptr; }
+  /// Finds the layers of light that are kept.
+  LightLayers::Finder& finder() { return finder_; }
   uint64_t invalid() const { return invalid_; }
 
  private:
@@ -59,6 +73,8 @@ class SampleSink {
   }
   SampleFilm::Tile* tile_ = nullptr;
   SplatFilm* layers_ = nullptr;
+  LightLayers::Finder finder_{nullptr};
+  std::vector<SampleFilm::Tile>* light_tiles_ = nullptr;
   Replay* replay_ = nullptr;
   uint64_t invalid_ = 0;
 };
@@ -71,6 +87,7 @@ struct SampledSettings {
   /// it has several groups, from whose spread the error is estimated.
   uint64_t passes_per_turn = 8;
   bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
+  LightLayerSettings light = {};   ///< Only for an EstimatorTaker, whose estimator records paths.
 };
 
 /// Settings of algorithms whose walks begin at the camera.
@@ -136,9 +153,11 @@ class SampledRendering : public Rendering {
   Memory memory(double spp) const override;
   /// Takes one sample for each cell of one tile.
   void run_unit(uint64_t unit) override;
-  Image image() const override { return shown(film_.image()); }
-  GroupImage group(int index) const override {
-    return {shown(film_.group_image(index)), static_cast<double>(film_.passes(index))};
+  Image image(int layer = all_light) const override {
+    return is_sum(layer) ? sum_of_lamps() : shown(film_of(layer).image());
+  }
+  GroupImage group(int index, int layer = all_light) const override {
+    return {shown(film_of(layer).group_image(index)), static_cast<double>(film_.passes(index))};
   }
   bool groups_share_sequence() const override { return true; }
   const SampleFilm& film() const { return film_; }
@@ -148,7 +167,7 @@ class SampledRendering : public Rendering {
   WeightClasses classes() const;
   std::vector<NamedImage> layers() const override;
   void add_stats(Stats& stats) const override;
-  /// Repeats one sample; `direct` returns its radiance alone, the others its paths too.
+  /// Repeats one sample, with its paths.
   Replay replay(const Vec2i& pixel, uint64_t sample) override;
   std::string save(const Task& task, Content content) const override;
   void load(const std::string& state) override;
@@ -161,6 +180,9 @@ class SampledRendering : public Rendering {
     uint64_t index;  ///< Index of the pass in its group.
   };
   Place place_of(uint64_t pass) const;
+  const SampleFilm& film_of(int layer) const {
+    return layer == all_light ? film_ : *light_films_[layer];
+  }
   Estimate mean_of(MeanSums SampleSums::* sums) const;
   /// The film's sums of a task.
   SampleFilm::Selection selection(const Task& task) const;
@@ -173,7 +195,8 @@ class SampledRendering : public Rendering {
   bool only_camera_walks_;
   SampleFilm film_;
   std::vector<std::string> layer_names_;
-  SplatFilm layers_;  ///< A group for each layer.
+  SplatFilm layers_;                                      ///< A group for each layer.
+  std::vector<std::unique_ptr<SampleFilm>> light_films_;  ///< One for each of light_layers().
   std::atomic<uint64_t> intersect_{0}, occluded_{0}, invalid_{0};
 };
 
@@ -189,6 +212,7 @@ struct SampledDefaults {
   static SampledSettings film(const Settings&) {
     return {};
   }
+  static LightLayerSettings light_layers(Params&) { return {}; }
 };
 
 /// An integrator by Own, a SampledDefaults with Own::settings(params), and Own::taker(scene,
@@ -196,16 +220,20 @@ struct SampledDefaults {
 template <class Own>
 class SampledIntegrator : public Integrator {
  public:
-  explicit SampledIntegrator(Params& params) : settings_(Own::settings(params)) {}
+  explicit SampledIntegrator(Params& params)
+      : settings_(Own::settings(params)), light_(Own::light_layers(params)) {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     const auto prepared = Own::prepared(settings_, *scene);
+    SampledSettings film = Own::film(settings_);
+    film.light = light_;
     return std::make_unique<SampledRendering>(
-        std::move(scene), seed, Own::film(settings_),
+        std::move(scene), seed, film,
         [settings = prepared](const Scene& scene) { return Own::taker(scene, settings); });
   }
 
  private:
   decltype(Own::settings(std::declval<Params&>())) settings_;
+  LightLayerSettings light_;
 };
 
 }  // namespace mlt

@@ -64,6 +64,7 @@ struct Stats {
   uint64_t tours = 0, longest_tour = 0;
   double tours_waiting = 0;
   uint64_t invalid_samples = 0;
+  std::vector<std::string> light_groups;  ///< Layers of lamps, which add up to the image.
   std::vector<StuckChain> stuck;
   std::vector<MutationStats> mutations;
   std::vector<std::string> warnings;

@@ -45,7 +45,7 @@ def sentence(doc: str) -> str: ...
 
 START = """\
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np

@@ -50,7 +50,7 @@ def test_every_flag_has_an_example(command):
     examples = re.findall(rf"^pymlt ({command} .*)$", text, re.MULTILINE)
     used = {word for line in examples for word in line.split() if word.startswith("-")}
     for spelling in re.findall(r"^\| `([^`]*)`", table, re.MULTILINE):
-        assert used & set(re.findall(r"-+[a-zA-Z]+", spelling)), spelling
+        assert used & set(re.findall(r"-+[a-zA-Z-]+", spelling)), spelling
 
 
 def test_the_instructions_of_the_benchmarks_are_those_that_are_guarded():

@@ -277,6 +277,30 @@ def test_a_picture_can_be_denoised(tab):
     tab.open("Paths")
 
 
+def test_a_lamp_can_be_dimmed_and_coloured_without_a_render(tab):
+    live, pictures, lamps = tab.session.live, tab.session.pictures, tab.session.controls.lamps
+    tab.session.post(lambda: setattr(lamps._asked, "value", True))
+    tab.until(lambda: lamps.factors() and live.image() is not None, "no lamps")
+    live.stop()
+    tab.until(lambda: not live.running, "no end")
+    (name,) = live.jobs[0].light_groups
+    look = tab.session.controls.look()
+    before = pictures.make(look, None)
+    assert np.array_equal(before, pictures.make(look._replace(lamps=None), None))
+    stops, colour = lamps._fields[name]
+    samples = live.jobs[0].samples
+    tab.session.post(lambda: (setattr(stops, "value", -2.0), setattr(colour, "value", (255, 0, 0))))
+    tab.until(lambda: lamps.factors()[name] == (0.25, 0, 0), "the sliders have no effect")
+    expected = live.jobs[0].image * np.float32([0.25, 0, 0])
+    look = tab.session.controls.look()
+    found = pictures.make(look, None).astype(int)
+    assert abs(found - shown.picture(expected, look.exposure, look.curve)).max() <= 1
+    assert live.jobs[0].samples == samples
+    tab.session.post(lambda: setattr(lamps._asked, "value", False))
+    tab.until(lambda: not lamps.factors(), "the sliders stay")
+    tab.open("Paths")
+
+
 def test_shapes_can_be_turned_with_the_paths(tab):
     picture = tab.picture()
     tab.page.get_by_role("checkbox").first.check(force=True)

@@ -15,7 +15,8 @@ class PathKernel : public PathMixture, public KernelDefaults {
 
   void record(ChainRecorder& recorder, const PathState& x, double weight) const {
     recorder.record(x.raster, x.rgb / x.target, weight,
-                    recorder.wants_density() ? target_->over_density(x) : 1);
+                    recorder.wants_density() ? target_->over_density(x) : 1,
+                    recorder.layers_of(x.path));
   }
   Vec2 raster_of(const PathState& x) const { return x.raster; }
 

@@ -17,6 +17,7 @@ class MovingEmitter final : public Emitter {
   MovingEmitter(EmitterPtr light, const Instance& instance)
       : light_(std::move(light)), instance_(&instance) {
     set_sampling_weight(light_->sampling_weight());
+    id = light_->id;
   }
 
   Spectrum eval(const SurfacePoint& x0, const Vec3& w) const override {

@@ -43,6 +43,14 @@ class BDPT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     light_image : boolean, default True
         Use techniques that connect light paths to the lens (t <= 1).
     sample_direct : boolean, default True
@@ -61,6 +69,8 @@ class BDPT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     light_image: bool
     sample_direct: bool
     heuristic: Literal["balance", "power", "maximum"]
@@ -74,6 +84,8 @@ class BDPT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         light_image: bool = True,
         sample_direct: bool = True,
         heuristic: Literal["balance", "power", "maximum"] = "power",
@@ -107,6 +119,14 @@ class Direct(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     """
 
     shading_samples: int
@@ -115,6 +135,8 @@ class Direct(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     def __init__(
         self,
         *,
@@ -124,6 +146,8 @@ class Direct(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
     ) -> None: ...
 
 class ERPT(Integrator):
@@ -145,6 +169,14 @@ class ERPT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
@@ -200,6 +232,8 @@ class ERPT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     lens_perturbation: bool
@@ -230,6 +264,8 @@ class ERPT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         lens_perturbation: bool = True,
@@ -272,6 +308,14 @@ class MLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
@@ -389,6 +433,8 @@ class MLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -443,6 +489,8 @@ class MLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         independent_share: float | None = None,
@@ -509,6 +557,14 @@ class MMLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
@@ -540,6 +596,8 @@ class MMLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -557,6 +615,8 @@ class MMLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         independent_share: float | None = None,
@@ -586,6 +646,14 @@ class Path(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     """
 
     max_depth: int
@@ -593,6 +661,8 @@ class Path(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     def __init__(
         self,
         *,
@@ -601,6 +671,8 @@ class Path(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
     ) -> None: ...
 
 class PSSMLT(Integrator):
@@ -621,6 +693,14 @@ class PSSMLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 256
@@ -655,6 +735,8 @@ class PSSMLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -673,6 +755,8 @@ class PSSMLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 256,
         independent_share: float | None = None,
@@ -703,6 +787,14 @@ class PTracer(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     """
 
     max_depth: int
@@ -710,6 +802,8 @@ class PTracer(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     def __init__(
         self,
         *,
@@ -718,6 +812,8 @@ class PTracer(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
     ) -> None: ...
 
 class RJMLT(Integrator):
@@ -738,6 +834,14 @@ class RJMLT(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    light_groups : boolean, default False
+        Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
+        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
+        one by one.
+    light_layers : string, default ''
+        Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
+        regular expressions over the letters of a path from the light to the eye: L, S for each
+        mirror or smooth glass, D for any other surface, M in a medium, E.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
@@ -769,6 +873,8 @@ class RJMLT(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    light_groups: bool
+    light_layers: str
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -786,6 +892,8 @@ class RJMLT(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        light_groups: bool = False,
+        light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
         independent_share: float | None = None,

@@ -19,7 +19,7 @@ from .common import load_scene
 
 #: Flags whose values are in a checkpoint. They may be given again.
 SAVED = {"integrator", "parameters", "seed", "size", "filter", "spectral"}
-SAVED |= {"defines", "sensor", "lenient", "strict"}
+SAVED |= {"light_groups", "light_layers", "defines", "sensor", "lenient", "strict"}
 
 
 def resumed(args, options: RenderOptions) -> Job:
@@ -47,6 +47,11 @@ def repeated(args, saved: _core.Checkpoint, job: Job) -> Iterator[tuple[str, obj
     if args.spectral:
         yield "--spectral", "given", "given" if info["spectral"] else "not"
     own = json.loads(saved.integrator.settings)
+    if args.light_groups:
+        yield "--light-groups", "given", "given" if own.get("light_groups") else "not"
+    if args.light_layers:
+        given = " ".join("=".join(layer) for layer in args.light_layers)
+        yield "--layer", given, own.get("light_layers") or "not"
     if args.integrator:
         yield "--integrator", args.integrator, own["type"]
     if args.parameters:

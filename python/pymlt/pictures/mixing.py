@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 PREFIX = "light."  #: of the layers that add up to the image, one for each light group
 ORIGINALS = ("unfiltered", "noisy")  #: what they add up to, if there is one of these layers
 #: How the names of other layers begin that are not true of other light.
-LIT = ("error", "chains", "samples", "raw.", "weighted.", "spectrum.", *ORIGINALS)
+LIT = ("error", "denoised_error", "chains", "samples", "raw.", "weighted.", "spectrum.", *ORIGINALS)
 CHANGED = ("denoised", "fireflies")  #: metadata of an image that is not the sum
 
 

@@ -16,7 +16,7 @@ from .. import _core
 from ..pictures.tonemapping import Exposure
 from .denoised import GUIDES, Denoising
 from .notebook import show
-from .options import RenderOptions, integer, number, relative_error, seconds
+from .options import RenderOptions, integer, light_classes, number, relative_error, seconds
 from .progress import progress_bar
 from .result import Groups, Replay, Result
 from .stats import Stats
@@ -33,13 +33,15 @@ class Job:
 
     def __init__(self, scene: _core.Scene, integrator: _core.Integrator, options: RenderOptions):
         self._scene = scene
-        self._integrator = integrator
+        self._integrator = _core.with_light_layers(
+            integrator, options.light_groups, light_classes(options.light_layers)
+        )
         self._options = options
         self._cluster = options.cluster
         self._filters = options.fireflies == "groups"
         self._job = _core.Job(
             scene,
-            integrator,
+            self._integrator,
             options.spp,
             options.time,
             options.error,
@@ -83,6 +85,15 @@ class Job:
     def groups(self) -> Groups:
         """What the independent groups have seen so far."""
         return Groups(*self._job.groups())
+
+    @property
+    def light_groups(self) -> list[str]:
+        """The names of the layers of lamps, with `light_groups=True`."""
+        return self._job.light_groups
+
+    def light(self) -> dict[str, NDArray[np.float32]]:
+        """The light of each lamp so far, by the names of these layers; it adds up to the image."""
+        return self._job.light()
 
     @property
     def error(self) -> float | None:

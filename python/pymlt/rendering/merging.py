@@ -50,19 +50,23 @@ def merge(renders: Iterable[str | os.PathLike[str] | Result], *, force: bool = F
     total = sum(part.spp for part in parts)
     weights = [part.spp / total for part in parts]
     names = set.intersection(*(set(part.layers) for part in parts))
+    errors = {name for name in names if name in ERRORS or name.startswith("error.")}
     first = parts[0]
     layers = {name: ids for name, ids in first.layers.items() if has_ids(name, first.metadata)}
     layers |= {
         name: _mean([part.layers[name] for part in parts], weights)
-        for name in sorted(names.difference(ERRORS, layers))
+        for name in sorted(names.difference(errors, layers))
     }
     if len(parts) >= SPREAD_FROM:
         images = [part.image for part in parts]
         layers["error"] = _spread(images, weights)
         blocks = [_block_means(image) for image in images]
+        for name in errors.difference(ERRORS):
+            light = [part.layers[name.removeprefix("error.")] for part in parts]
+            layers[name] = _spread(light, weights)
         layers["error_block"] = _fill_blocks(_spread(blocks, weights), images[0].shape)
     else:
-        for name in names.intersection(ERRORS):
+        for name in errors:
             squares = [np.square(part.layers[name], dtype=np.float64) for part in parts]
             variance = sum(w**2 * s for w, s in zip(weights, squares, strict=True))
             layers[name] = np.sqrt(variance).astype(np.float32)

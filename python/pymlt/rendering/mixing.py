@@ -35,7 +35,9 @@ def mix(render: str | os.PathLike[str] | Result, /, **factors: ArrayLike) -> Res
     """
     given = render if isinstance(render, Result) else _read(os.fspath(render))
     where = repr(given) if isinstance(render, Result) else os.fspath(render)
-    mixed = mix_layers(given.image, given.layers, given.metadata, factors, where)
+    classes = {text.partition("=")[0] for text in given.integrator.get("light_layers", "").split()}
+    layers = {name: layer for name, layer in given.layers.items() if name not in classes}
+    mixed = mix_layers(given.image, layers, given.metadata, factors, where)
     stats = {n: given.stats[n] for n in ("seed", "spp_done", "size") if n in given.stats}
     return replace(given, stats=stats, **mixed._asdict())
 

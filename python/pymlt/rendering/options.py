@@ -7,7 +7,7 @@ import inspect
 import numbers
 import operator
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -39,6 +39,15 @@ class RenderOptions:
         Cryptomattes are layers "cryptomatte_object00", "01" and "02" of four channels: two ids,
         each followed by its coverage (see `pymlt.cryptomatte`); "cryptomatte_object/8" has 8 ids
         per pixel in place of 6. None are the layers of the scene's integrator `aov`.
+    light_groups
+        whether `result.layers` has the light of each lamp: "light." with the id of the emitter,
+        else that of its shape, else "light.rest". They add up to the image, and each has a layer of
+        its error, such as "error.light.lamp". For the integrators that have the parameter
+        `light_groups`.
+    light_layers
+        layers with the light of classes of paths, {"caustics": "LS+DE"}: regular expressions over
+        the letters of a path from the light to the eye. L is the light, S a mirror or smooth glass,
+        D any other surface, M a place in a medium, E the eye.
     alpha
         whether the result has `result.alpha`, also if the film's `pixel_format` is not "rgba": how
         much each pixel hides of what lies behind the scene. Masks, thin glass and media count in
@@ -71,6 +80,8 @@ class RenderOptions:
     every: float = 60
     overwrite: bool = False
     aovs: str | Sequence[str] | None = None
+    light_groups: bool = False
+    light_layers: Mapping[str, str] | None = None
     alpha: bool = False
     fireflies: str = "keep"
     denoise: bool = False
@@ -148,6 +159,19 @@ def relative_error(value: float | str | None) -> float | None:
             raise _core.UsageError(f"error {error}") from None
     share = number("error", value)
     return flag.read(repr(share)) if share is not None and share > 1 else share
+
+
+def light_classes(layers) -> list[tuple[str, str]]:
+    """The names and expressions of `light_layers`, also as a list of pairs."""
+    try:
+        pairs = list(layers.items() if isinstance(layers, Mapping) else layers or ())
+        if all(isinstance(text, str) for pair in pairs for text in pair):
+            return [(name, expression) for name, expression in pairs]
+    except (TypeError, ValueError):
+        pass
+    raise _core.UsageError(
+        f"light_layers is {layers!r}, but should be a dict such as {{'caustics': 'LS+DE'}}"
+    )
 
 
 def seconds(name: str, value) -> float:

@@ -175,7 +175,7 @@ class Replay(NamedTuple):
 
     raster: tuple[float, float]  #: where on the image, in pixels
     radiance: np.ndarray  #: RGB, as the film got it there
-    paths: list[_core.LightPath]  #: what it found; `direct` does not tell
+    paths: list[_core.LightPath]  #: what it found
 
     def __repr__(self) -> str:
         x, y = self.raster

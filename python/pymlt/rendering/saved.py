@@ -26,6 +26,7 @@ def saved_job(
             raise _core.SceneError(f"{error}, which {os.fspath(scene)!r} is not") from None
         raise
     options = replace(options, seed=saved.seed, checkpoint=options.checkpoint or path)
+    options.light_groups, options.light_layers = False, None  # the integrator has them
     job = Job(loaded, saved.integrator, options)
     saved.resume(job._job)
     return job

@@ -56,7 +56,7 @@ def start(
     return Job(scene, as_integrator(scene, integrator), options)._start()
 
 
-@functools.partial(takes_options, fixed=("seed",))
+@functools.partial(takes_options, fixed=("seed", "light_groups", "light_layers"))
 def resume(
     path: str | os.PathLike,
     *,

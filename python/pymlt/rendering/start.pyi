@@ -1,6 +1,6 @@
 # Made by `python -m pymlt._stubs`. Do not edit.
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,8 @@ def render(
     every: float = 60,
     overwrite: bool = False,
     aovs: str | Sequence[str] | None = None,
+    light_groups: bool = False,
+    light_layers: Mapping[str, str] | None = None,
     alpha: bool = False,
     fireflies: str = "keep",
     denoise: bool = False,
@@ -45,6 +47,8 @@ def render_bands(
     seed: int = 0,
     threads: int = 0,
     aovs: str | Sequence[str] | None = None,
+    light_groups: bool = False,
+    light_layers: Mapping[str, str] | None = None,
     alpha: bool = False,
     fireflies: str = "keep",
     denoise: bool = False,
@@ -101,6 +105,8 @@ def start(
     every: float = 60,
     overwrite: bool = False,
     aovs: str | Sequence[str] | None = None,
+    light_groups: bool = False,
+    light_layers: Mapping[str, str] | None = None,
     alpha: bool = False,
     fireflies: str = "keep",
     denoise: bool = False,

@@ -13,7 +13,8 @@ namespace {
 /// Sums up L* of what is recorded, times w2.
 struct Brightness : ChainRecorder {
   explicit Brightness(const ClampingWeights& w) : weights(w) {}
-  void record(const Vec2&, const Color& rgb_per_target, double weight, double over) override {
+  void record(const Vec2&, const Color& rgb_per_target, double weight, double over,
+              LayerMask) override {
     sum += weight * target_luminance(rgb_per_target) * weights.of_chain(over);
   }
   ClampingWeights weights;
@@ -137,7 +138,7 @@ class EndlessTours : public testing::Test {
 
 /// Counts the weight that one tour leaves in each pixel.
 struct Pixels : ChainRecorder {
-  void record(const Vec2& raster, const Color&, double weight, double) override {
+  void record(const Vec2& raster, const Color&, double weight, double, LayerMask) override {
     pixels[{int(std::floor(raster.x)), int(std::floor(raster.y))}] += weight;
   }
   std::map<std::pair<int, int>, double> pixels;

@@ -15,16 +15,16 @@ class Given : public Rendering {
   Given(std::vector<GroupImage> groups, std::vector<const Rendering*> parts)
       : Rendering(nullptr, 1), groups_(std::move(groups)), parts_(std::move(parts)) {}
 
-  GroupImage group(int index) const override {
+  GroupImage group(int index, int) const override {
     return index < static_cast<int>(groups_.size()) ? groups_[index] : GroupImage();
   }
   std::vector<const Rendering*> parts() const override { return parts_; }
-  Image common_error() const override { return common_; }
+  Image common_error(int) const override { return common_; }
   bool groups_share_sequence() const override { return share_sequence_; }
 
   Memory memory(double) const override { return {}; }
   void run_unit(uint64_t) override {}
-  Image image() const override { return {}; }
+  Image image(int) const override { return {}; }
   void add_stats(Stats&) const override {}
   std::string save(const Task&, Content) const override { return {}; }
   void load(const std::string&) override {}
