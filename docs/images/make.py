@@ -7,6 +7,7 @@ clamped       glasses by path tracing, by chains alone, and by chains beside cla
 strategies    the techniques of bidirectional path tracing
 manifolds     light through water without and with manifold sampling
 tone-curves   one render by each tone curve
+light-layers  one render, its direct light, its caustics and all other light
 comparison    what pymlt compare --picture draws
 race          what pymlt race -o race.png draws
 """
@@ -75,6 +76,15 @@ def tone_curves():
     mlt.write_image(HERE / "tone-curves.png", np.concatenate(shown, axis=1))
 
 
+def light_layers():
+    scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(200, 200))
+    classes = {"direct": "LDE", "caustics": "LS+DE"}
+    result = mlt.start(scene, mlt.MLT(), spp=400, light_layers=classes).result()
+    layers = [result.layers[name] for name in classes]
+    images = [result.image, *layers, result.image - sum(layers)]
+    mlt.write_image(HERE / "light-layers.jpg", np.concatenate(images, axis=1), exposure=1)
+
+
 def comparison():
     image = render("glass_ball", mlt.Path(max_depth=8), 3, (200, 200))
     reference = render("glass_ball", mlt.BDPT(max_depth=8), 30, (200, 200), seed=2)
@@ -103,6 +113,7 @@ if __name__ == "__main__":
         "strategies": strategies,
         "manifolds": manifolds,
         "tone-curves": tone_curves,
+        "light-layers": light_layers,
         "comparison": comparison,
         "race": race,
     }
