@@ -11,7 +11,7 @@ SIZE, SECONDS = (384, 216), 60
 CLASSES = {
     "lens": ".*[LD]DS*E",
     "caustic": ".*[LD]S+DE",
-    "multi_chain": ".*[LD](DS+)+DS*E",
+    "multi_chain": ".*[LD](DS+)+DS*E|L(S+D)+S+E",
 }
 
 
