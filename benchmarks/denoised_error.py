@@ -29,6 +29,7 @@ import pymlt as mlt
 from pymlt.pictures.halves import target_luminance
 
 ENDLESS = 1e6  # samples per pixel
+INTEGRATORS = {"path": mlt.Path(), "bdpt": mlt.BDPT(), "mlt": mlt.MLT()}
 
 
 def loaded(name: str, pixels: int):
@@ -38,7 +39,7 @@ def loaded(name: str, pixels: int):
     return mlt.load(name, filter="box", size=(round(scale * width), round(scale * height)))
 
 
-def render_for(scene, integrator: str, seconds: float, seed: int) -> mlt.Result:
+def render_for(scene, integrator, seconds: float, seed: int) -> mlt.Result:
     job = mlt.start(
         scene, integrator, spp=ENDLESS, seed=seed, threads=1, fireflies="groups", denoise=True
     )
@@ -77,7 +78,8 @@ def squares(result: mlt.Result, reference: Reference) -> list[list[float]]:
 
 def measured(scene, name: str, reference: Reference, seconds: float, args) -> dict:
     seeds = range(1, args.seeds + 1)
-    found = [squares(render_for(scene, args.integrator, seconds, s), reference) for s in seeds]
+    integrator = INTEGRATORS[args.integrator]
+    found = [squares(render_for(scene, integrator, seconds, s), reference) for s in seeds]
     row = {"scene": name, "seconds": seconds}
     for i, suffix in enumerate(("", " 99.9")):
         noisy, plain, denoised, claimed = np.sqrt(np.mean(found, axis=0)[:, i].clip(0))
@@ -94,7 +96,7 @@ def measured(scene, name: str, reference: Reference, seconds: float, args) -> di
 def main() -> None:
     options = parser(__doc__)
     options.add_argument("scenes", nargs="+", help="names of built-in scenes, or files")
-    options.add_argument("--integrator", default="mlt")
+    options.add_argument("--integrator", choices=INTEGRATORS, default="mlt")
     options.add_argument("--pixels", type=int, default=96 * 72, help="of each image")
     options.add_argument("--seconds", type=float, nargs="+", default=[2, 10, 60])
     options.add_argument("--seeds", type=int, default=4)
@@ -108,7 +110,7 @@ def main() -> None:
         reference = Reference(
             f"denoised-{name}-{args.pixels}{'-file' if path.suffix else ''}",
             scene,
-            mlt.MLT(),
+            INTEGRATORS["mlt"],
             args.reference_seconds,
             threads=1,
             folder=REPOSITORY / "build" / "references",

@@ -45,12 +45,12 @@ std::vector<Parameter> light_parameters() {
   return {
       {"light_groups", ParamType::boolean, false,
        "Keep the light of each lamp as a layer: `light.` with its id. They add up to the image, "
-       "and each has a layer of its error, such as `error.light.lamp`. Samples are then taken "
-       "one by one."},
+       "and each has a layer of its error, such as `error.light.lamp`."},
       {"light_layers", ParamType::text, std::string(),
        "Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with "
        "regular expressions over the letters of a path from the light to the eye: L, S for each "
-       "mirror or smooth glass, D for any other surface, M in a medium, E."}};
+       "mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then taken "
+       "one by one."}};
 }
 
 LightLayerSettings light_layers(Params& params) {

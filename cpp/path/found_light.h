@@ -32,6 +32,8 @@ struct FoundLight : ImageLight {
   double weight = 0;               ///< Contribution to b, the integral of the target: T / p.
   double target_over_density = 0;  ///< T / P (see ClampingWeights), or what stands for it.
 
+  uint32_t emitter = 0;  ///< Index of its emitter, from waves that keep emitters apart.
+
   bool valid() const {
     return is_finite(rgb) && min_component(rgb) >= 0 && weight >= 0 && std::isfinite(weight) &&
            target_over_density >= 0;

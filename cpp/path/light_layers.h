@@ -65,6 +65,11 @@ class LightLayers {
     explicit Finder(const LightLayers* layers) : layers_(layers) {}
     int count() const { return layers_ ? layers_->count() : 0; }
     LayerMask of(const Path& path);
+    /// Whether the layers of a path follow from its emitter alone.
+    bool knows_by_emitter() const { return !layers_ || layers_->classes_.empty(); }
+    LayerMask of_emitter(uint32_t emitter) const {
+      return layers_ ? layers_->of_emitter_[emitter] : 0;
+    }
 
    private:
     const LightLayers* layers_;

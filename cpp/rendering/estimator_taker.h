@@ -23,6 +23,7 @@ class SampleLight {
     for_each_layer(light.layers, [&](int i) { layers_[i] += rgb; });
   }
   void finish() {
+    if (layers_.empty()) return sink_->add(raster_, own_pixel_ * own_scale_);
     for (Color& layer : layers_) layer *= own_scale_;
     sink_->add(raster_, own_pixel_ * own_scale_, layers_);
   }
@@ -79,9 +80,11 @@ class EstimatorTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (!wave_ || sink.finder().count() > 0)
-      return SampleTaker::sample_cells(cells, streams, sink, rays);
-    if constexpr (!std::is_same_v<Wave, NoWave>) {
+    if constexpr (std::is_same_v<Wave, NoWave>) {
+      SampleTaker::sample_cells(cells, streams, sink, rays);
+    } else {
+      if (!wave_ || !can_trace_wave(sink))
+        return SampleTaker::sample_cells(cells, streams, sink, rays);
       for_each_packet_cell(cells, [&](const Vec2i& cell) {
         wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
         if (wave_->full()) trace_wave(sink, rays);
@@ -91,6 +94,11 @@ class EstimatorTaker : public SampleTaker {
   }
 
  private:
+  /// Whether waves tell all that the layers of light need.
+  bool can_trace_wave(SampleSink& sink) {
+    const LightLayers::Finder& finder = sink.finder();
+    return finder.knows_by_emitter() && wave_->keep_emitters(finder.count() > 0);
+  }
   void trace_wave(SampleSink& sink, RayCounts& rays) {
     if (wave_->size() == 0) return;
     wave_->trace(rays);
@@ -99,7 +107,13 @@ class EstimatorTaker : public SampleTaker {
   }
   void show(int i, SampleSink& sink) {
     typename Sum::Sample sample(sum_, wave_->raster(i), sink);
-    wave_->show_lights(i, [&](const FoundLight& light) { sample.add(light); });
+    if (sink.finder().count() == 0)
+      wave_->show_lights(i, [&](const FoundLight& light) { sample.add(light); });
+    else
+      wave_->show_lights(i, [&](FoundLight light) {
+        light.layers = sink.finder().of_emitter(light.emitter);
+        sample.add(light);
+      });
     sample.finish();
   }
 

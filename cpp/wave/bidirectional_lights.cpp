@@ -26,6 +26,7 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
     const EmitterChoice choice = scene_->choose_emitter(u_choice_[begin + i]);
     const MeshLight& light = scene_->mesh_light(choice.index);
     choices[i] = choice;
+    walk_emitter_[begin + i] = choice.index;
     if (!light.mesh) continue;
     const auto point = light.mesh->sample_barycentrics({u_x_[begin + i], u_y_[begin + i]});
     lights_.set_light(i, light, choice.probability, point, wavelength_[begin + i]);
@@ -110,6 +111,7 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
     const Vec3 from =
         place > 0 ? position(camera_.joints(place, block), lane) : lens(i).x.vertex.at.p;
     const EmitterChoice choice = scene_->choose_emitter_for(from, u_choice_[i]);
+    direct_emitter_[i] = choice.index;
     const MeshLight& light = scene_->mesh_light(choice.index);
     if (!light.mesh) {
       choose_other_direct(i, from, choice);

@@ -88,6 +88,7 @@ void BidirectionalWave::trace(RayCounts& rays) {
     for (int s = 1; s <= light_.last_place() + 1; ++s) {
       if (!rules.wants(s + t - 1)) continue;
       joint_ = joint_number(s, t);
+      emitters_ = s == 1 ? &direct_emitter_ : &walk_emitter_;
       if (t > 1)
         connect(s, t, rays);
       else if (settings_.light_image)
@@ -120,12 +121,16 @@ inline void BidirectionalWave::wait_for_shadow(const Light& light, const Waiting
 
 void BidirectionalWave::take_hits(RayCounts& rays) {
   joint_ = 0;
+  emitters_ = &walk_emitter_;
   const auto weighted = [](const SubpathWave::Hit& hit) {
     return hit.light * mis_weight(1, hit.scaled, hit.fixed);
   };
-  for (const SubpathWave::Hit& hit : camera_.hits())
-    take(add({hit.sample, true, hit.survival, hit.certainty, rasters_[hit.sample],
-              recorded(weighted(hit), wavelength_[hit.sample], hit.dispersed)}));
+  for (const SubpathWave::Hit& hit : camera_.hits()) {
+    const int added = add({hit.sample, true, hit.survival, hit.certainty, rasters_[hit.sample],
+                           recorded(weighted(hit), wavelength_[hit.sample], hit.dispersed)});
+    lights_found_[added].emitter = hit.emitter;
+    take(added);
+  }
   for (const SubpathWave::Hit& hit : light_.hits()) {
     make_room_for_shadows(rays);
     wait_for_shadow({hit.sample, false, hit.survival, hit.certainty, hit.raster},
@@ -137,6 +142,7 @@ void BidirectionalWave::take_hits(RayCounts& rays) {
 inline int BidirectionalWave::add(const Light& light) {
   lights_found_.push_back(light);
   lights_found_.back().joint = joint_;
+  lights_found_.back().emitter = (*emitters_)[light.sample];
   return static_cast<int>(lights_found_.size()) - 1;
 }
 
@@ -269,7 +275,8 @@ void BidirectionalWave::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int light) { return time(lights_found_[light].sample); },
-      [&](int light, const Color&, double) { take(light); }, [&](int shadow) { pass(shadow); });
+      [&](int shadow, const Color&, double) { take(shadows_.path(shadow)); },
+      [&](int shadow) { pass(shadow); });
   waiting_.clear();
 }
 

@@ -52,6 +52,9 @@ class BidirectionalWave {
   void trace(RayCounts& rays);
   void clear();
 
+  /// Lights always tell their emitters.
+  bool keep_emitters(bool /*keep*/) { return true; }
+
   // The results of the samples:
   const Vec2& raster(int i) const { return rasters_[i]; }
   /// Calls show(FoundLight) for all light that the i-th sample has found. With the balance
@@ -60,10 +63,12 @@ class BidirectionalWave {
   void show_lights(int i, Show&& show) const {
     for (int k = first_[i]; k >= 0; k = lights_found_[k].next) {
       const Light& light = lights_found_[k];
-      show(FoundLight{{light.raster, light.weighted, light.own_pixel},
-                      light.survival,
-                      light.certainty,
-                      light.joint});
+      FoundLight found{{light.raster, light.weighted, light.own_pixel},
+                       light.survival,
+                       light.certainty,
+                       light.joint};
+      found.emitter = light.emitter;
+      show(found);
     }
   }
 
@@ -76,7 +81,8 @@ class BidirectionalWave {
     Vec2 raster;
     Color weighted{0};  ///< f w / p.
     int joint = 0;      ///< See FoundLight.
-    int next = -1;      ///< The sample's next light; -1: there is none.
+    uint32_t emitter = 0;
+    int next = -1;  ///< The sample's next light; -1: there is none.
   };
   /// Light on a shadow ray, as if there were no surfaces that it may have to pass. The sums are
   /// those of SubpathWave::Hit.
@@ -139,7 +145,9 @@ class BidirectionalWave {
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.
   Vec2 cell_{1};
-  int joint_ = 0;  ///< That of the light that is being added.
+  int joint_ = 0;                                       ///< That of the light that is being added,
+  const Samples<uint32_t>* emitters_ = &walk_emitter_;  ///< and the emitter of each sample.
+  Samples<uint32_t> walk_emitter_, direct_emitter_;     ///< Where walks start, and for s = 1.
   Samples<Vec2> rasters_;
   Samples<int> first_, last_;        ///< Each sample's first and last light; -1: there is none.
   std::vector<Light> lights_found_;  ///< One to which no sample links is in shadow.

@@ -104,8 +104,8 @@ struct LambertianVertices {
   }
   /// Sets the light point of the i-th path to this one, if the light was chosen with this
   /// probability.
-  void set_light(int i, const MeshLight& chosen, double probability,
-                 const Mesh::Barycentrics& point, double wavelength) {
+  [[gnu::always_inline]] void set_light(int i, const MeshLight& chosen, double probability,
+                                        const Mesh::Barycentrics& point, double wavelength) {
     const Mesh& mesh = *chosen.mesh;
     const auto& [triangle, b, per_pdf] = point;
     light.set(i, mesh.record(triangle), static_cast<float>(b.x), static_cast<float>(b.y));

@@ -39,10 +39,21 @@ class PathSampleWave {
     wave_.trace(rays);
   }
   const Vec2& raster(int i) const { return rasters_[i]; }
-  /// Calls show(light), once, for all light that the i-th sample has found.
+  /// Whether lights tell their emitters, if they can.
+  bool keep_emitters(bool keep) {
+    wave_.keep_emitters(keep);
+    return wave_.keeps_emitters() == keep;
+  }
+  /// Calls show(light) for the light that the i-th sample has found: once for all, or for each path
+  /// with its emitter.
   template <class Show>
   void show_lights(int i, Show&& show) const {
-    show(FoundLight{{rasters_[i], wave_.radiance(i), true}});
+    if (!wave_.keeps_emitters()) return show(FoundLight{{rasters_[i], wave_.radiance(i), true}});
+    wave_.show_emitters(i, [&](uint32_t emitter, const Color& rgb) {
+      FoundLight light{{rasters_[i], rgb, true}};
+      light.emitter = emitter;
+      show(light);
+    });
   }
   void clear() {
     wave_.clear();

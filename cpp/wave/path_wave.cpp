@@ -83,7 +83,7 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth, RayCounts& ray
   if (shape == SurfacePoint::no_shape) {
     if (!rules_.wants(depth)) return;
     WaveWalk& walk = exact_walk(begin_ + i);
-    find_light(*scene_, walk, nullptr, walk);
+    find_light_at_end(begin_ + i, walk, nullptr);
     return;
   }
   const LaneMesh& mesh = scene_->lane_mesh(shape);
@@ -100,6 +100,26 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth, RayCounts& ray
   }
 }
 
+template <class Numbers>
+inline void BasicPathWave<Numbers>::find_light_at_end(int place, WaveWalk& walk,
+                                                      const SurfacePoint* at) {
+  if (!keeps_emitters_) return find_light(*scene_, walk, at, walk);
+  struct Keeper : IgnorePaths {
+    double find(const CameraWalk& walk, const Color& rgb, double certainty) {
+      return weight = static_cast<const WaveWalk&>(walk).find(walk, rgb, certainty);
+    }
+    void hit(const Emitter& emitter, const SurfacePoint&, const Color& rgb) const {
+      wave->keep(path, emitter.index(), rgb * weight);
+    }
+    BasicPathWave* wave;
+    int path;
+    double weight = 1;
+  } keeper;
+  keeper.wave = this;
+  keeper.path = path_[place];
+  find_light(*scene_, walk, at, keeper);
+}
+
 /// Finds a vertex on a surface that shines, is not Lambertian, or is behind one that light passes;
 /// in scenes with media any vertex.
 template <class Numbers>
@@ -112,7 +132,7 @@ void BasicPathWave<Numbers>::find_single(int i, const Hit& hit, int depth, RayCo
   if (walk.ray.medium != no_medium || (stops && scene_->bsdf(at).has_passage()))
     stops = go_through(Walker{*scene_, walk.ray.time, rays}, numbers_.read(leg_, begin_ + i), stops,
                        walk, at);
-  if (rules_.wants(depth)) find_light(*scene_, walk, stops ? &at : nullptr, walk);
+  if (rules_.wants(depth)) find_light_at_end(begin_ + i, walk, stops ? &at : nullptr);
   const bool in_lanes = !scene_->has_media() && scene_->lane_mesh(hit.shape).lambertian;
   if (stops && !in_lanes && consistent_sides(at, -walk.ray.d, rules_.strict_normals))
     single_[i] = added;

@@ -60,6 +60,7 @@ class BasicPathWave {
     exact_[live_] = true;
     o_.set(live_, Vec3f(ray.o));
     d_.set(live_++, Vec3f(ray.d));
+    last_part_[walks_.size()] = -1;
     WaveWalk& walk = walks_.emplace_back(ray);
     walk.mis = mis_;
     walk.weights = weights;
@@ -77,12 +78,22 @@ class BasicPathWave {
   bool full() const { return size() == capacity; }
   /// Traces all paths to their ends. `coherent`: the first rays of adjacent paths are similar.
   void trace(RayCounts& rays, bool coherent = true);
+  /// Whether the radiance of each emitter is kept apart, too: not in scenes with media.
+  void keep_emitters(bool keep) { keeps_emitters_ = keep && !scene_->has_media(); }
+  bool keeps_emitters() const { return keeps_emitters_; }
+  /// Calls show(emitter, radiance) for all parts of the radiance of the i-th path.
+  template <class Show>
+  void show_emitters(size_t i, Show&& show) const {
+    for (int k = last_part_[i]; k >= 0; k = parts_[k].before)
+      show(parts_[k].emitter, parts_[k].rgb);
+  }
   /// The radiance that the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
   /// The number of rays of the i-th path.
   const RayCounts& rays(size_t i) const { return walks_[i].rays; }
   void clear() {
     walks_.clear();
+    parts_.clear();
     numbers_.clear();
     live_ = 0;
   }
@@ -102,6 +113,23 @@ class BasicPathWave {
     bool disperses;
     double mis, survival;
   };
+
+  /// A part of the radiance of a path; `before` is its path's last one, or -1.
+  struct Part {
+    int before;
+    uint32_t emitter;
+    Color rgb;
+  };
+  void receive(int path, uint32_t emitter, const Color& rgb) {
+    walks_[path].radiance += rgb;
+    if (keeps_emitters_) keep(path, emitter, rgb);
+  }
+  void keep(int path, uint32_t emitter, const Color& rgb) {
+    parts_.push_back({last_part_[path], emitter, rgb});
+    last_part_[path] = static_cast<int>(parts_.size()) - 1;
+  }
+  /// Finds the light at the end of the ray of the path at this place.
+  void find_light_at_end(int place, WaveWalk& walk, const SurfacePoint* at);
 
   void find_hits(bool coherent, RayCounts& rays);
   void find_shadows(RayCounts& rays);
@@ -147,7 +175,12 @@ class BasicPathWave {
   MisExponent mis_;
   std::vector<WaveWalk> walks_;
   WaveShadows shadows_;
+  Wave<uint32_t> shadow_emitter_;            ///< The emitter of each shadow ray.
   std::vector<LightToPass> lights_to_pass_;  ///< One for each shadow ray, if there are passages.
+
+  bool keeps_emitters_ = false;
+  std::vector<Part> parts_;
+  Wave<int> last_part_;  ///< The last part of each path; -1: there is none.
 
   // Values of each path that takes this step:
   int live_ = 0;
@@ -162,6 +195,7 @@ class BasicPathWave {
 
   // Values of each path of the block:
   int begin_ = 0, count_ = 0;
+  Block<uint32_t> emitter_;  ///< That which next-event estimation has chosen.
   Block<double> u_light_x_, u_light_y_, u_choice_, u_lobe_;
   LambertianVertices lambertian_;
   GlossyVertices glossy_;

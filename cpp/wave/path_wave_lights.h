@@ -34,6 +34,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
     Vec3 u = numbers_for_light(i);
     const Vec3 from = single_[i] >= 0 ? singles_[single_[i]].at.p : Vec3(lambertian_.p[i]);
     const EmitterChoice choice = scene_->choose_emitter_for(from, u.x);
+    emitter_[i] = choice.index;
     const MeshLight& light = scene_->mesh_light(choice.index);
     if (single_[i] < 0 && light.mesh) {
       lambertian_.set_light(i, light, choice.probability,
@@ -120,6 +121,7 @@ inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direc
   ++walk.rays.occluded;
   if (scene_->has_passages())
     lights_to_pass_.push_back({light, walk.dispersed || direct.disperses, mis, walk.survival});
+  shadow_emitter_[shadows_.count()] = emitter_[i];
   shadows_.add(path_[begin_ + i], found, walk.find(walk, found, 0), o, w, length);
 }
 
@@ -204,8 +206,8 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
-      [&](int path, const Color& radiance, double share) {
-        walks_[path].radiance += radiance * share;
+      [&](int shadow, const Color& radiance, double share) {
+        receive(shadows_.path(shadow), shadow_emitter_[shadow], radiance * share);
       },
       [&](int shadow) { receive_through(shadow); });
   lights_to_pass_.clear();
@@ -224,7 +226,8 @@ void BasicPathWave<Numbers>::receive_through(int shadow) {
   const double mis = mis_weight(1, (1 / to_pass.mis - 1) * walk.mis.raise(seen.probability));
   const Color found = recorded(to_pass.light * seen.transmittance * (mis / to_pass.mis),
                                ray.wavelength, to_pass.disperses);
-  walk.radiance += found * walk.weights.of(found, to_pass.survival, 0);
+  receive(shadows_.path(shadow), shadow_emitter_[shadow],
+          found * walk.weights.of(found, to_pass.survival, 0));
 }
 
 }  // namespace mlt

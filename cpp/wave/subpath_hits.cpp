@@ -92,7 +92,7 @@ void SubpathWave::hit_light(const Emitter& emitter, int walk, int place, const S
   const double above = beta_.over(direct + beta_.over(sums_[walk], reverse / forward_[walk]),
                                   from_light / (pdf_[walk] * per_area));
   hits_.push_back({sample_[walk], throughput_[walk] * terms.f, 0, above, dispersed_[walk],
-                   survival_[walk], certainty_[walk]});
+                   survival_[walk], certainty_[walk], emitter.index()});
 }
 
 /// See BidirectionalSampler::evaluate_hit_lens; the walk goes on at its vertex of this place.
@@ -116,7 +116,7 @@ void SubpathWave::hit_lens(int walk, int place) {
   ray.t_max = distance * (1 - ray_offset);
   hits_.push_back({sample_[walk], throughput_[walk] * terms.f, beta_.over(before, over_lens),
                    beta_.over(technique, over_lens), dispersed_[walk], survival_[walk],
-                   certainty_[walk] * stops, *raster, ray});
+                   certainty_[walk] * stops, 0, *raster, ray});
 }
 
 }  // namespace mlt

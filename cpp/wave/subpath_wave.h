@@ -27,6 +27,7 @@ class SubpathWave {
     double scaled, fixed;
     bool dispersed;
     double survival, certainty;  ///< See Connection.
+    uint32_t emitter;            ///< Where the light comes from; unknown of walks from a light.
     // For the lens alone:
     Vec2 raster{};
     Ray to_lens{};  ///< It has still to be seen.

@@ -26,8 +26,8 @@ class WaveShadows {
   int path(int i) const { return path_[i]; }
   Ray ray(int i, double time) const { return {Vec3(o_[i]), Vec3(w_[i]), time, length_[i]}; }
 
-  /// Calls receive(path, radiance, share) for the light that is not blocked, or pass(i) where the
-  /// i-th ray passes surfaces, and clears all rays; time(path) is the time of a path.
+  /// Calls receive(i, radiance, share) for the i-th ray if it is not blocked, or pass(i) where it
+  /// passes surfaces, and clears all rays; time(path) is the time of a path.
   template <class Time, class Receive, class Pass>
   void trace(const Accel& accel, Time&& time, Receive&& receive, Pass&& pass) {
     for (int begin = 0; begin < count_; begin += RayPacket::size) {
@@ -43,7 +43,7 @@ class WaveShadows {
         if (passed >> i & 1)
           pass(begin + i);
         else
-          receive(path_[begin + i], radiance_[begin + i], share_[begin + i]);
+          receive(begin + i, radiance_[begin + i], share_[begin + i]);
       }
     }
     count_ = 0;

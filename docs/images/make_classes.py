@@ -1,4 +1,4 @@
-"""The picture of docs/course/perturbations.md: an image by the perturbation that moves its paths."""
+"""The picture of docs/course/perturbations.md: the light that each perturbation moves."""
 
 from pathlib import Path
 

@@ -79,6 +79,14 @@ def xml(lit=tuple(LAMPS), more=""):
     </scene>"""
 
 
+#: Lets light pass as it is, in half of its strength.
+GLASS_PANE = """
+  <shape type="rectangle">
+    <transform name="to_world"><scale value="0.6"/><translate y="0.6" z="1.2"/></transform>
+    <bsdf type="mask"><float name="opacity" value="0.5"/><ref id="grey"/></bsdf>
+  </shape>"""
+
+
 @pytest.fixture(scope="module")
 def scene():
     return mlt.load_string(xml())
@@ -98,7 +106,15 @@ def sum_of(layers):
     return total
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.values(), ids=INTEGRATORS)
+IN_WAVES = {
+    "path in waves": mlt.Path(max_depth=5),
+    "bdpt in waves": mlt.BDPT(max_depth=5),
+    "mlt in waves": mlt.MLT(**{**METROPOLIS, "waves": True}),
+}
+ALL = INTEGRATORS | IN_WAVES
+
+
+@pytest.mark.parametrize("integrator", ALL.values(), ids=ALL)
 def test_the_layers_of_lamps_add_up_to_the_image(scene, integrator):
     """Bit for bit; the image is that of a render without layers, but for rounding."""
     layered = result(scene, integrator, light_groups=True)
@@ -111,6 +127,19 @@ def test_the_layers_of_lamps_add_up_to_the_image(scene, integrator):
     np.testing.assert_allclose(layered.image, plain.image, rtol=1e-5, atol=near_zero)
     assert "light_groups" not in plain.metadata
     assert not any(name.startswith(("light.", "error.")) for name in plain.layers)
+
+
+@pytest.mark.parametrize("integrator", [mlt.Path, mlt.BDPT])
+@pytest.mark.parametrize("lit", [xml(), xml(more=GLASS_PANE)], ids=["plain", "behind glass"])
+def test_waves_keep_lamps_apart_as_single_samples_do(integrator, lit):
+    scene = mlt.load_string(lit)
+    one, many = (
+        result(scene, integrator(max_depth=5, waves=waves), light_groups=True)
+        for waves in (False, True)
+    )
+    for name in NAMES:
+        difference = abs(one.layers[name] - many.layers[name])
+        assert difference.mean() < 2e-3 * one.layers[name].mean()
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS.values(), ids=INTEGRATORS)

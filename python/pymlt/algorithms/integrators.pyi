@@ -45,12 +45,12 @@ class BDPT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     light_image : boolean, default True
         Use techniques that connect light paths to the lens (t <= 1).
     sample_direct : boolean, default True
@@ -121,12 +121,12 @@ class Direct(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     """
 
     shading_samples: int
@@ -171,12 +171,12 @@ class ERPT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     luminance_samples : integer, default 50000
         Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
@@ -310,12 +310,12 @@ class MLT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     luminance_samples : integer, default 50000
         Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
@@ -559,12 +559,12 @@ class MMLT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
@@ -648,12 +648,12 @@ class Path(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     """
 
     max_depth: int
@@ -695,12 +695,12 @@ class PSSMLT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 256
@@ -789,12 +789,12 @@ class PTracer(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     """
 
     max_depth: int
@@ -836,12 +836,12 @@ class RJMLT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
-        and each has a layer of its error, such as `error.light.lamp`. Samples are then taken
-        one by one.
+        and each has a layer of its error, such as `error.light.lamp`.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
-        mirror or smooth glass, D for any other surface, M in a medium, E.
+        mirror or smooth glass, D for any other surface, M in a medium, E. Samples are then
+        taken one by one.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
