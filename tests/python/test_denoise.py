@@ -176,6 +176,15 @@ def test_an_error_budget_is_that_of_the_denoised_image(box, reference):
     assert np.array_equal(results[0].image, results[1].image)
 
 
+def test_a_denoised_render_can_be_extended_to_an_error(box):
+    job = mlt.start(box, "path", spp=64, seed=1, denoise=True)
+    assert job.result().stats["ended_by"] == "spp"
+    job.extend(error=0.06)
+    result = job.result()
+    assert result.stats["ended_by"] == "error"
+    assert result.stats["denoised_error"] <= 0.06 < result.stats["error"]
+
+
 def test_a_running_render_can_be_seen_denoised(box):
     job = mlt.start(box, "path", spp=64, seed=1)
     job.wait()

@@ -28,6 +28,7 @@ class Denoising:
     def __init__(self, job: _core.Job):
         import_extra("pyoidn", "denoise", "denoising")
         self._job = job
+        self.goal = 0.0  #: the error that ends the render, if any does
         self.error: float | None = None  #: of the denoised image, when it was last made
         self._bound = math.nan
         self._samples = 0.0
@@ -47,16 +48,16 @@ class Denoising:
         self.error, self._bound, self._samples = found.relative, found.bound, samples
         return found.image, {"denoised_error": found.error}
 
-    def judge(self, goal: float) -> None:
+    def judge(self) -> None:
         """Before the job starts: its budget bounds the error of the denoised image."""
-        found = weakref.WeakMethod(self._bound_for)  # which the job would keep alive for ever
-        self._job.judge_by(lambda: bound(goal) if (bound := found()) else math.nan)
+        found = weakref.WeakMethod(self._upper_bound)  # which the job would keep alive for ever
+        self._job.judge_by(lambda: bound() if (bound := found()) else math.nan)
 
-    def _bound_for(self, goal: float) -> float:
-        """An upper bound of the error, or nan; where the goal is far off, a guess."""
+    def _upper_bound(self) -> float:
+        """That of the error, or nan; where the goal is far off, a guess."""
         if self._samples > 0:
             guess = self._bound * math.sqrt(self._samples / self._job.spp_done)
-            if guess > SOONER * goal:
+            if guess > SOONER * self.goal:
                 return guess
         self.image(self._job.image(), self._job.layers())
         return self._bound

@@ -52,8 +52,9 @@ class Job:
             options.alpha,
         )
         self._denoising = Denoising(self._job) if options.denoise else None
-        if self._denoising is not None and options.error is not None:
-            self._denoising.judge(options.error)
+        if self._denoising is not None:
+            self._denoising.goal = options.error or 0.0
+            self._denoising.judge()
 
     def _start(self) -> Job:
         if self._cluster is not None:
@@ -147,7 +148,10 @@ class Job:
         The image is the same as if the render had had this budget from the start. Raises UsageError
         if the render has not ended, or the budget is not larger.
         """
-        self._job.extend(number("spp", spp), number("time", time), relative_error(error))
+        goal = relative_error(error)
+        if self._denoising is not None:
+            self._denoising.goal = goal or 0.0
+        self._job.extend(number("spp", spp), number("time", time), goal)
 
     def replay(self, pixel: tuple[int, int], sample: int = 0) -> Replay:
         """Repeat one sample of a pixel (x, y), whether it has been taken or not.
