@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from .. import _core
 from .._extras import import_extra
 from .halves import Mixture, Pair, best_mixture
+from .output import Contents
 from .tonemapping import split_alpha
 
 if TYPE_CHECKING:
@@ -82,14 +83,6 @@ def guides_of(layers: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     return found
 
 
-class Denoised(NamedTuple):
-    """A denoised image, with what its file is to hold."""
-
-    image: np.ndarray
-    layers: dict[str, np.ndarray]
-    metadata: dict[str, str]
-
-
 def denoise_with_layers(
     image: np.ndarray,
     layers: dict[str, np.ndarray],
@@ -97,7 +90,7 @@ def denoise_with_layers(
     *,
     albedo: ArrayLike | None = None,
     normal: ArrayLike | None = None,
-) -> Denoised:
+) -> Contents:
     """The same for what a file or a render holds: its layers guide the filter, or what is given.
 
     The image itself becomes the layer "noisy"; `metadata` say that it was denoised.
@@ -107,7 +100,7 @@ def denoise_with_layers(
     if "albedo" not in chosen and normal is None:
         chosen.clear()  # a layer of normals alone does not help
     clean = denoise(image, albedo=chosen.get("albedo"), normal=chosen.get("normal"))
-    return Denoised(clean, layers | {"noisy": image}, metadata | {"denoised": how(chosen)})
+    return Contents(clean, layers | {"noisy": image}, metadata | {"denoised": how(chosen)})
 
 
 def denoise_halves(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from .. import _core
+from .output import Contents
 
 if TYPE_CHECKING:
     import numpy as np
@@ -18,21 +19,13 @@ LIT = ("error", "denoised_error", "chains", "samples", "raw.", "weighted.", "spe
 CHANGED = ("denoised", "fireflies")  #: metadata of an image that is not the sum
 
 
-class Mixed(NamedTuple):
-    """A mixed image, with what its file is to hold."""
-
-    image: np.ndarray
-    layers: dict[str, np.ndarray]
-    metadata: dict[str, str]
-
-
 def mix_layers(
     image: np.ndarray,
     layers: dict[str, np.ndarray],
     metadata: dict[str, str],
     factors: Mapping[str, ArrayLike],
     where: str,
-) -> Mixed:
+) -> Contents:
     """The sum of all light groups, each times its factor: a number or RGB, 1 if it is not given.
 
     With factors of 1 alone that is the image bit for bit, as it was before it was denoised or
@@ -57,11 +50,11 @@ def mix_layers(
     texts = {name: text for name, text in metadata.items() if name not in CHANGED}
     if not changed:
         original = next((layers[name] for name in ORIGINALS if name in layers), image)
-        return Mixed(original, kept, texts)
+        return Contents(original, kept, texts)
     how = " ".join(f"{n}={','.join(f'{x:g}' for x in f.flat)}" for n, f in changed.items())
     texts["mixed"] = "; ".join(filter(None, [metadata.get("mixed"), how]))
     total = np.sum(list(scaled.values()), axis=0, dtype=np.float64)
-    return Mixed(total.astype(np.float32), kept, texts)
+    return Contents(total.astype(np.float32), kept, texts)
 
 
 def _checked(name: str, given: ArrayLike) -> np.ndarray:

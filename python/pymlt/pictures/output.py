@@ -18,6 +18,14 @@ PICTURES = tuple(BITS)
 EXTENSIONS = (".exr", *PICTURES, ".hdr")
 
 
+class Contents(NamedTuple):
+    """An image, with what its file is to hold."""
+
+    image: np.ndarray
+    layers: dict[str, np.ndarray]
+    metadata: dict[str, str]
+
+
 class OutputFile(NamedTuple):
     """What is to be written, and where."""
 
