@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 from ..pictures.denoising import denoise
@@ -16,7 +16,17 @@ if TYPE_CHECKING:
 
 QUALITY = 90  #: of JPEG, of 100
 PATIENCE = 1.0  #: seconds between two denoised pictures of a render, at the least
-REST = 4.0  #: times as long as one has taken, that the denoiser rests
+REST = 2.0  #: times as long as one has taken, that the denoiser rests
+LONG = 1.0  #: seconds; halves that take longer are denoised at the beginning and at the end alone
+
+
+class Denoised(NamedTuple):
+    """A picture of a render."""
+
+    image: np.ndarray
+    due: float  #: when it is to be made anew
+    is_slow: bool  #: whether its halves take long
+    final: bool
 
 
 class Pictures:
@@ -25,7 +35,7 @@ class Pictures:
     def __init__(self, session: Any):
         self._session = session
         self._layers: dict[str, np.ndarray] = {}
-        self._denoised: WeakKeyDictionary[Job, tuple[float, np.ndarray]] = WeakKeyDictionary()
+        self._denoised: WeakKeyDictionary[Job, Denoised] = WeakKeyDictionary()
 
     def forget(self) -> None:
         """What the camera sees has changed."""
@@ -61,14 +71,17 @@ class Pictures:
         return shown.picture(image, look.exposure, look.curve)
 
     def _without_noise(self, job: Job) -> np.ndarray:
-        """Denoised anew now and then, and at the end."""
-        due, image = self._denoised.get(job, (0.0, None))
-        begun = monotonic()
-        if image is None or begun >= due or (job.ended and due < float("inf")):
-            ended = job.ended
+        """Denoised anew about once a second, and at the end."""
+        known, begun, ended = self._denoised.get(job), monotonic(), job.ended
+        if known and (known.final or (begun < known.due and not ended)):
+            return known.image
+        if known and known.is_slow and not ended:
+            image, is_slow = denoise(job.image), True
+        else:
             image = job.denoised()
-            rest = max(PATIENCE, REST * (monotonic() - begun))
-            self._denoised[job] = float("inf") if ended else monotonic() + rest, image
+            is_slow = monotonic() - begun > LONG
+        due = monotonic() + max(PATIENCE, REST * (monotonic() - begun))
+        self._denoised[job] = Denoised(image, due, is_slow, ended)
         return image
 
     @property
