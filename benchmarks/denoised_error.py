@@ -26,7 +26,7 @@ import numpy as np
 from common import REPOSITORY, Reference, parser, print_table, say, write_results
 
 import pymlt as mlt
-from pymlt.pictures.halves import target_luminance
+from pymlt.pictures.luminance import target_luminance
 
 ENDLESS = 1e6  # samples per pixel
 INTEGRATORS = {"path": mlt.Path(), "bdpt": mlt.BDPT(), "mlt": mlt.MLT()}

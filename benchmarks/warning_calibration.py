@@ -20,7 +20,7 @@ import random_scene
 
 import pymlt as mlt
 from pymlt.diagnostics.error_calibration import WARNINGS
-from pymlt.pictures.halves import target_luminance
+from pymlt.pictures.luminance import target_luminance
 
 SIZE, BUDGETS, SEEDS = (32, 24), (16, 64, 256), (1, 2)
 RIGHT = 0.8, 1.25  # true over claimed error

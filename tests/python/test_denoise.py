@@ -9,7 +9,7 @@ import tiny
 
 import pymlt as mlt
 from pymlt import cli
-from pymlt.pictures.halves import target_luminance
+from pymlt.pictures.luminance import target_luminance
 
 pytest.importorskip("pyoidn", reason="needs pymlt[denoise]")
 
@@ -201,6 +201,13 @@ def test_a_render_that_is_dropped_while_it_is_judged_ends(box):
     core = job._job
     del job
     assert core.ended
+
+
+def test_normals_alone_guide_no_render(box):
+    result = mlt.start(box, "path", spp=64, seed=1, aovs="sh_normal", denoise=True).result()
+    plain = mlt.start(box, "path", spp=64, seed=1, aovs="", denoise=True).result()
+    assert np.array_equal(result.image, plain.image)
+    assert "guided" not in result.metadata["denoised"]
 
 
 def test_with_few_samples_the_error_is_not_known(box):

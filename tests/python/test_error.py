@@ -8,7 +8,7 @@ import tiny
 
 import pymlt as mlt
 from pymlt.diagnostics.error_calibration import calibrate
-from pymlt.pictures.halves import target_luminance as luminance
+from pymlt.pictures.luminance import target_luminance as luminance
 
 SEEDS = 60
 LOWEST, HIGHEST = 0.8, 1.25  # claimed over true

@@ -15,7 +15,6 @@ from ..rendering.needed import needed
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
-from ..rendering.summary import percent
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
 from .display import EXPOSURE_HELP, add_bits, add_tonemap, exposure
 from .resuming import SAVED, resumed, to_come
@@ -160,15 +159,7 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
         while not job.wait(0.1):
             if signals.caught:
                 job.cancel()
-            show(job.progress, seen(job))
-
-
-def seen(job: Job) -> dict[str, str]:
-    """What is to be said of a render that runs."""
-    known = {"spp": f"{job.samples:.4g}"}
-    if job.denoised_error is not None:
-        known["error"] = percent(job.denoised_error)
-    return known
+            show(job.progress, job._figures)
 
 
 def render_bands(args, result: Result, job: Job, signals: Signals) -> None:

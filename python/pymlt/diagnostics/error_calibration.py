@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _core
 from ..algorithms.integrator import IntegratorLike
-from ..pictures.halves import target_luminance
+from ..pictures.luminance import target_luminance
 from ..rendering.result import Result
 from ..rendering.start import start
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from .._extras import import_extra
 from ..images import read_image
-from ..pictures.halves import target_luminance
+from ..pictures.luminance import target_luminance
 
 if TYPE_CHECKING:
     import numpy as np

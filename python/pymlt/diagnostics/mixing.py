@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike
-from ..pictures.halves import target_luminance
+from ..pictures.luminance import target_luminance
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import start

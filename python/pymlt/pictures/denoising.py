@@ -73,14 +73,23 @@ def denoise(
     return np.concatenate([found, alpha], axis=2).reshape(given.shape)
 
 
-def guides_of(layers: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Those layers of an image that guide the filter, as arguments of `denoise`."""
-    found = {}
+def guides_of(
+    layers: dict[str, np.ndarray],
+    *,
+    albedo: ArrayLike | None = None,
+    normal: ArrayLike | None = None,
+) -> dict[str, ArrayLike]:
+    """What guides the filter, as arguments of `denoise`: layers of an image, or what is given.
+
+    A layer of normals without an albedo does not help, and is left out.
+    """
+    found: dict[str, ArrayLike] = {}
     for guide, names in GUIDES.items():
         present = [layers[name] for name in names if name in layers]
         if present:
             found[guide] = present[0]
-    return found
+    found |= {k: g for k, g in (("albedo", albedo), ("normal", normal)) if g is not None}
+    return found if "albedo" in found or normal is not None else {}
 
 
 def denoise_with_layers(
@@ -95,10 +104,7 @@ def denoise_with_layers(
 
     The image itself becomes the layer "noisy"; `metadata` say that it was denoised.
     """
-    chosen: dict[str, ArrayLike] = {**guides_of(layers)}
-    chosen |= {k: g for k, g in (("albedo", albedo), ("normal", normal)) if g is not None}
-    if "albedo" not in chosen and normal is None:
-        chosen.clear()  # a layer of normals alone does not help
+    chosen = guides_of(layers, albedo=albedo, normal=normal)
     clean = denoise(image, albedo=chosen.get("albedo"), normal=chosen.get("normal"))
     return Contents(clean, layers | {"noisy": image}, metadata | {"denoised": how(chosen)})
 

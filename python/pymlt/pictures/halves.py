@@ -28,6 +28,8 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
+from .luminance import target_luminance
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -73,13 +75,6 @@ class Mixture(NamedTuple):
     error: np.ndarray  #: its standard error around each pixel, float32, (height, width, 3)
     relative: float  #: its relative error, as `stats["error"]` is that of the image itself
     bound: float  #: the same with two standard errors of its square
-
-
-def target_luminance(image: np.ndarray) -> np.ndarray:
-    """What Metropolis samples: the mean of the luminance and of the mean of R, G, B."""
-    import numpy as np
-
-    return image @ (0.5 * np.array([0.2126, 0.7152, 0.0722]) + 0.5 / 3)
 
 
 def covariance(f: Pair, g: Pair, raw: Pair) -> np.ndarray:

@@ -20,6 +20,7 @@ from .options import RenderOptions, integer, light_classes, number, relative_err
 from .progress import progress_bar
 from .result import Groups, Replay, Result
 from .stats import Stats
+from .summary import percent
 
 if TYPE_CHECKING:
     import numpy as np
@@ -111,6 +112,14 @@ class Job:
         """
         self._denoising = self._denoising or Denoising(self._job)
         return self._denoising.image(self._job.image(), self._job.layers())[0]
+
+    @property
+    def _figures(self) -> dict[str, str]:
+        """What a progress bar tells of it while it runs."""
+        known = {"spp": f"{self.samples:.4g}"}
+        if self.denoised_error is not None:
+            known["error"] = percent(self.denoised_error)
+        return known
 
     @property
     def _seen(self) -> NDArray[np.float32]:
@@ -215,7 +224,7 @@ class Job:
                 if monotonic() >= end:
                     return False
                 if progress is not False:
-                    show(self.progress, {"spp": f"{self._job.spp_done:.4g}"})
+                    show(self.progress, self._figures)
                 if callback is not None and monotonic() >= next_call:
                     if callback(self.snapshot()) is True:
                         self.cancel()

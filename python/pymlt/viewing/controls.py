@@ -12,6 +12,7 @@ from ..algorithms.integrators import integrator_schema
 from ..pictures.output import OutputFile
 from ..pictures.tonemapping import CURVES, stops_of
 from ..rendering.job import Job
+from ..rendering.summary import percent
 from . import shown
 from .lamps import Lamps
 from .live import Algorithm
@@ -208,4 +209,4 @@ class ErrorFigures:
 
     @staticmethod
     def _text(error: float | None) -> str:
-        return f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %" if error else ""
+        return f"\N{PLUS-MINUS SIGN} {percent(error)}" if error else ""
