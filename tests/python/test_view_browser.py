@@ -40,6 +40,13 @@ def browser():
         made.close()
 
 
+def until(page, condition, what: str):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end, what
+        page.wait_for_timeout(50)
+
+
 class Tab:
     """A page of the view and its session; renders of other pages are stopped."""
 
@@ -56,10 +63,7 @@ class Tab:
         (self.session,) = [session for session in view.sessions if session not in known]
 
     def until(self, condition, what: str):
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end, what
-            self.page.wait_for_timeout(50)
+        until(self.page, condition, what)
 
     def open(self, name: str):
         self.page.get_by_role("tab", name=name).click()
@@ -377,7 +381,8 @@ def test_the_lecture_needs_no_scene(browser):
         page.goto(view.url)
         page.locator("canvas").nth(1).wait_for()  # a chart, beside that of the scene
         assert page.get_by_role("tab").count() == 0
-        assert page.locator("p[data-example]").bounding_box()["width"] > 500
+        text = page.locator("p[data-example]")
+        until(page, lambda: text.bounding_box()["width"] > 500, "the panel stays narrow")
         (session,) = view.sessions
         page.close()
         session.wait(PATIENCE)
