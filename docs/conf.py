@@ -77,7 +77,8 @@ sphinx_gallery_conf = {
 TOPICS = {
     "scenes": (
         "Scenes",
-        "load load_file load_dict load_string convert traverse Scene SceneParameters Transform",
+        "load load_file load_dict load_string load_materials convert traverse Scene "
+        "SceneParameters Transform",
         ["scenes"],
     ),
     "rendering": (

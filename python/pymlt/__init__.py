@@ -37,7 +37,7 @@ from .diagnostics.audit import Audit, audit
 from .diagnostics.comparison import comparison_figure
 from .diagnostics.metrics import compare
 from .diagnostics.mixing import Convergence, convergence
-from .formats.files import convert
+from .formats.files import convert, load_materials
 from .formats.loading import load
 from .images import read_image, read_metadata, write_image
 from .pictures.denoising import denoise
@@ -104,6 +104,7 @@ __all__ = [
     "load",
     "load_dict",
     "load_file",
+    "load_materials",
     "load_string",
     "merge",
     "mix",

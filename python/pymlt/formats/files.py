@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..scenes.arrays import with_bytes
@@ -20,16 +20,25 @@ if TYPE_CHECKING:
 
 def read_foreign(path: str | os.PathLike[str]) -> Imported:
     """A scene of another program, with its meshes and images as arrays."""
+    from .imported import Imported
+
+    made = Imported()
+    source = Path(os.fspath(path))
+    read_with(reader_of(source), source, made)
+    return made
+
+
+def read_with(reader: Callable[[Path, Imported], Any], source: Path, made: Imported) -> Any:
+    """What a reader makes of a file. Raises SceneError for a file that contradicts itself, and
+    FileError if files are missing that it names.
+    """
     import numpy as np
 
-    from .imported import Imported
     from .missing import refuse_missing
 
-    source = Path(os.fspath(path))
-    made = Imported()
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
-            reader_of(source)(source, made)
+            found = reader(source, made)
     except _core.Error:
         refuse_missing(made, source)  # other errors may be due to that
         raise
@@ -37,7 +46,7 @@ def read_foreign(path: str | os.PathLike[str]) -> Imported:
         kind = type(error).__name__
         raise _core.SceneError(f"{source}: contradicts itself: {kind}: {error!s:.200}") from None
     refuse_missing(made, source)
-    return made
+    return found
 
 
 def reader_of(path: Path) -> Callable[[Path, Imported], None]:
@@ -46,6 +55,10 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
         from .pbrt import read_pbrt
 
         return read_pbrt
+    if path.suffix.lower() == ".mtlx":
+        from .materialx import read_materialx
+
+        return read_materialx
     if path.name.lower().endswith(MESHES):
         from .mesh_file import read_mesh
 
@@ -72,14 +85,42 @@ def load_foreign(
     return scene, made.placed_warnings(os.fspath(path))
 
 
+def load_materials(path: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
+    """The materials of a MaterialX file (.mtlx) by their names, for shapes of a scene dict.
+
+    Each is a dict with a "bsdf", the dict of an `openpbr`, and with an "emitter", that of an `area`
+    light, if it glows. These are what a shape takes:
+
+        brass = mlt.load_materials("metals.mtlx")["Brass"]
+        ball = {"type": "sphere", **brass}
+
+    Radiance is the luminance in nits times the colour. Lengths that have a unit become metres, and
+    thicknesses of films micrometres; colours are linear Rec. 709. Textures are images of their
+    files, or arrays where nodes compute them. What has no counterpart is named in a warning of
+    Python. Raises FileError for a file that cannot be read or that the file names and that is
+    missing, SceneError for what is wrong in it and for shaders and nodes that are not read,
+    UsageError for another extension or without the extra `materialx`.
+    """
+    from .imported import Imported
+    from .materialx import read_materials
+
+    source = Path(os.fspath(path))
+    if source.suffix.lower() != ".mtlx":
+        raise _core.UsageError(f"{source}: load_materials reads MaterialX (.mtlx)")
+    made = Imported()
+    found = read_with(read_materials, source, made)
+    warn_all(made.placed_warnings(os.fspath(path)))
+    return found
+
+
 def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str]) -> list[str]:
     """Write a scene as Mitsuba XML.
 
-    `path` names a scene of another program (.gltf, .glb, .pbrt) or a mesh (.ply, .obj, .stl), or is
-    a scene dict. Its meshes (.ply) and images are written beside `output`, with names that begin as
-    its own does. Returns what has no counterpart, one line each. Raises FileError for files that
-    cannot be read or written, SceneError for what is wrong in them, UsageError for another
-    extension or without the extra that reading needs.
+    `path` names a scene of another program (.gltf, .glb, .pbrt), materials (.mtlx) or a mesh (.ply,
+    .obj, .stl), or is a scene dict. Its meshes (.ply) and images are written beside `output`, with
+    names that begin as its own does. Returns what has no counterpart, one line each. Raises
+    FileError for files that cannot be read or written, SceneError for what is wrong in them,
+    UsageError for another extension or without the extra that reading needs.
     """
     from .written import Written
     from .xml_writer import to_xml

@@ -40,6 +40,9 @@ def load(
         glTF 2.0; needs the extra `gltf`.
     .pbrt
         pbrt-v3 and pbrt-v4.
+    .mtlx
+        materials of MaterialX, each on a ball (`load_materials` gives them alone); needs the extra
+        `materialx`.
     .ply, .obj, .stl, .ply.gz, .obj.gz
         one mesh, in which y is up, with a grey material, light, and a camera that it fits.
     anything else that exists, but files of other programs (.blend, .fbx, ...)

@@ -7,7 +7,7 @@ import os
 from .. import _core
 
 MESHES = (".ply", ".obj", ".stl", ".ply.gz", ".obj.gz")
-EXTENSIONS = (".gltf", ".glb", ".pbrt", *MESHES)
+EXTENSIONS = (".gltf", ".glb", ".pbrt", ".mtlx", *MESHES)
 
 _BLENDER = "export it from Blender as glTF (.glb), or render it there with pymlt's extension"
 _IMPORT = "import it into Blender and export it as glTF (.glb)"
@@ -43,7 +43,7 @@ OTHERS = {
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
-    """Whether a file of this name is a scene of another program, or a mesh alone."""
+    """Whether a file of this name is a scene of another program, materials, or a mesh alone."""
     return os.fspath(path).lower().endswith(EXTENSIONS)
 
 

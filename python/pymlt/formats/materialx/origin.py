@@ -1,0 +1,58 @@
+"""Where a value comes from, through the nodes and graphs that hand it on as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from .graph import implementation, interface, is_set
+from .scope import FILE, Scope
+
+Port = tuple[Any, Scope]  #: an input or an output, and where it stands
+Node = tuple[Any, Scope]
+
+#: The numbers of a node's input, None if they are not the same everywhere.
+Factor = Callable[[Any, str, Scope], list[float] | None]
+
+
+def origin(port: Port | None, factor: Factor) -> Node | None:
+    """The node that makes a value, None if that is a constant."""
+    node = None
+    while port is not None:
+        node, port = step(*port, factor)
+    return node
+
+
+def step(port: Any, scope: Scope, factor: Factor) -> tuple[Node | None, Port | None]:
+    """Either the node that makes a value, or the port that it comes from, one link further."""
+    if name := port.getInterfaceName():
+        if scope.outer is None:
+            return None, (interface(port, name), FILE)
+        given = scope.node.getInput(name)
+        return None, (given, scope.outer) if given is not None and is_set(given) else None
+    if port.getNodeGraphString():
+        output = port.getConnectedOutput()
+        return None, (output, scope) if output is not None else None
+    node = port.getConnectedNode()
+    if node is None:
+        return None, None
+    if (graph := implementation(node)) is not None:
+        name = port.getOutputString()
+        output = graph.getOutput(name) if name else graph.getOutputs()[0]
+        return None, (output, scope.inside(node))
+    unchanged = handed_on(node, scope, factor)
+    if unchanged is not None and is_set(unchanged):
+        return None, (unchanged, scope)
+    return (node, scope), None
+
+
+def handed_on(node: Any, scope: Scope, factor: Factor) -> Any:
+    """The input whose value a node has as its own, if there is one."""
+    match node.getCategory():
+        case "dot":
+            return node.getInput("in")
+        case "multiply":
+            for name, other in (("in1", "in2"), ("in2", "in1")):
+                if set(factor(node, other, scope) or ()) == {1.0}:
+                    return node.getInput(name)
+    return None

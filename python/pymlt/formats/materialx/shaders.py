@@ -1,0 +1,107 @@
+"""Shaders of MaterialX, each as the inputs of OpenPBR.
+
+Other shaders become OpenPBR by graphs: that for `standard_surface` is MaterialX's own, those for
+`gltf_pbr` and `UsdPreviewSurface` are in translations.mtlx.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ... import _core
+from .document import standard_nodes
+from .graph import definition, is_set, path_of
+from .origin import Port
+from .scope import FILE
+
+OPENPBR = "open_pbr_surface"
+#: The graph that makes OpenPBR of a shader, and its input for normals.
+SHADERS = {
+    OPENPBR: ("", "geometry_normal"),
+    "standard_surface": ("NG_standard_surface_to_open_pbr_surface", "normal"),
+    "gltf_pbr": ("NG_gltf_pbr_to_open_pbr_surface", "normal"),
+    "UsdPreviewSurface": ("NG_UsdPreviewSurface_to_open_pbr_surface", "normal"),
+}
+
+
+@dataclass(frozen=True)
+class Shader:
+    """A node of the file that shades a surface."""
+
+    node: Any
+
+    @property
+    def kind(self) -> str:
+        return self.node.getCategory()
+
+    @property
+    def graph(self) -> Any:
+        """The graph that makes OpenPBR of it, None if it is that."""
+        name, _ = SHADERS[self.kind]
+        return standard_nodes().getNodeGraph(name) if name else None
+
+    def port(self, name: str) -> Port | None:
+        """What gives an input of OpenPBR its value; None where that is the default."""
+        if self.graph is not None:
+            output = self.graph.getOutput(f"{name}_out")
+            return None if output is None else (output, FILE.inside(self.node))
+        return self.given(name)
+
+    def given(self, name: str) -> Port | None:
+        """An input of the shader itself, if the file gives it."""
+        given = self.node.getInput(name)
+        return (given, FILE) if given is not None and is_set(given) else None
+
+    @property
+    def normal(self) -> Port | None:
+        """The normals that the file gives."""
+        return self.given(SHADERS[self.kind][1])
+
+    def left_out(self) -> list[str]:
+        """The names of inputs that the file gives and that do not become any of OpenPBR."""
+        known = self._read() | {SHADERS[self.kind][1]}
+        return [
+            given.getName()
+            for given in self.node.getInputs()
+            if is_set(given) and given.getName() not in known and not self._is_default(given)
+        ]
+
+    def _read(self) -> set[str]:
+        if self.graph is None:
+            return {given.getName() for given in definition(self.node).getActiveInputs()} - {
+                "geometry_coat_normal",
+                "geometry_tangent",
+                "geometry_coat_tangent",
+            }
+        inner = [given for node in self.graph.getNodes() for given in node.getInputs()]
+        return {given.getInterfaceName() for given in inner}
+
+    def _is_default(self, given: Any) -> bool:
+        """Whether an input says nothing: its default, or the surface's own normals or tangents.
+
+        Validation has warned of one that the shader does not have.
+        """
+        declared = definition(self.node).getActiveInput(given.getName())
+        if declared is None:
+            return True
+        output = given.getConnectedOutput() if given.getNodeGraphString() else given
+        node = output.getConnectedNode() if output is not None else None
+        if node is not None:
+            return node.getCategory() in ("normal", "tangent")
+        return given.getValue() == declared.getValue()
+
+
+def shader_of(material: Any) -> Shader:
+    """The shader of a `surfacematerial`. Raises SceneError for one that is not read."""
+    given = material.getInput("surfaceshader")
+    port = given.getConnectedOutput() if given is not None and given.getNodeGraphString() else given
+    node = port.getConnectedNode() if port is not None else None
+    if node is None:
+        raise _core.SceneError(f"{path_of(material)}: the material has no surface shader")
+    if node.getCategory() not in SHADERS:
+        raise _core.SceneError(
+            f"{path_of(node)}: the shader {node.getCategory()!r} is not read; read are "
+            f"{', '.join(SHADERS)}"
+        )
+    return Shader(node)
