@@ -12,7 +12,7 @@ from ... import _core
 from ..limits import NESTING
 from .colour_spaces import canonical
 from .images import Images, Lookup
-from .nodes import NODES, converted
+from .nodes import NODES
 from .scope import FILE, File, Scope
 from .units import converted_unit
 
@@ -108,11 +108,11 @@ class Graph:
             case "geompropvalue" if node.getType() == "vector2" and given("geomprop") in UV_SETS:
                 return self._geometry("UV0", node)
             case "convert":
-                return converted(given("in"), COUNTS[node.getType()])
+                return full(given("in"), node.getType())
         if category not in NODES:
             raise refused(node)
         with np.errstate(all="ignore"):
-            return NODES[category](given)
+            return full(NODES[category](given), node.getType())
 
     def _image(self, node: Any, given: Any) -> np.ndarray:
         file = given("file")
@@ -171,8 +171,16 @@ class Graph:
         self._conversions += 1
         given = {"in": colours[..., :3]}
         scope = Scope(f"conversion-{self._conversions}", given=given)
-        converted = self.value(found.getImplementation().getOutputs()[0], scope)
-        return np.concatenate([converted, colours[..., 3:]], axis=-1)
+        linear = self.value(found.getImplementation().getOutputs()[0], scope)
+        return np.concatenate([linear, colours[..., 3:]], axis=-1)
+
+
+def full(values: np.ndarray, kind: str) -> np.ndarray:
+    """One number for all channels of a type, or fewer channels of what has more."""
+    count = COUNTS[kind]
+    if values.shape[-1] > count:
+        return values[..., :count]
+    return np.broadcast_to(values, (*values.shape[:-1], count))
 
 
 def is_set(port: Any) -> bool:

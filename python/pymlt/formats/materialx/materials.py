@@ -11,7 +11,7 @@ from ..imported import Imported, rgb
 from .document import standard_nodes
 from .normals import with_normals
 from .shaders import OPENPBR, Shader, shader_of
-from .textures import Pattern, Textures
+from .textures import Textures
 
 #: Parameters that are numbers or colours alone: of a texture the mean is taken.
 UNTEXTURED = {
@@ -87,13 +87,13 @@ class Materials:
         name, port = declared.getName(), shader.port(declared.getName())
         if port is None:
             return None
+        where = f"{shader.node.getNamePath()}: {name}"
         constant = self.textures.constant(lambda graph: graph.value(*port))
         if constant is None and name not in UNTEXTURED:
-            return self.textures.texture(port)
-        where = f"{shader.node.getNamePath()}: {name}"
+            return self._clipped(self.textures.texture(port, where), declared, where)
         if constant is None:
             self._made.warn(f"{where} is a texture, of which the mean is taken")
-            data = self.textures.computed(lambda graph: graph.value(*port))["data"]
+            data = self.textures.computed(lambda graph: graph.value(*port), where)["data"]
             constant = data.reshape(-1, data.shape[2] if data.ndim > 2 else 1).mean(axis=0).tolist()
         constant = self._in_range(constant, declared, where)
         default = self.textures.constant(lambda graph: graph.constant(declared))
@@ -105,8 +105,7 @@ class Materials:
 
     def _in_range(self, values: list[float], declared: Any, where: str) -> list[float]:
         """Numbers between the least and the greatest that the specification allows."""
-        least, most = (declared.getAttribute(name).split(",")[0] for name in ("uimin", "uimax"))
-        low, high = float(least or "-inf"), float(most or "inf")
+        low, high = range_of(declared)
         clipped = [min(max(value, low), high) for value in values]
         if clipped != values:
             given, taken = (", ".join(f"{one:.3g}" for one in each) for each in (values, clipped))
@@ -115,20 +114,30 @@ class Materials:
             self._made.warn(f"{where} is {clipped[0]:.3g} micrometres; nanometres need a unit")
         return clipped
 
+    def _clipped(self, bitmap: dict[str, Any], declared: Any, where: str) -> dict[str, Any]:
+        """A texture between these two; one of a file stays as it is."""
+        low, high = range_of(declared)
+        data = bitmap.get("data")
+        if data is None or (low <= data.min() and data.max() <= high):
+            return bitmap
+        reach = f"{data.min():.3g} to {data.max():.3g}"
+        self._made.warn(f"{where} goes from {reach}, and is clipped to {low:g} to {high:g}")
+        return bitmap | {"data": data.clip(low, high)}
+
     def _radiance(self, shader: Shader) -> dict[str, Any] | None:
         """That of the light which a shader emits: luminance times colour, 1 nit as 1."""
         luminance, colour = (shader.port(f"emission_{name}") for name in ("luminance", "color"))
         if luminance is None:
             return None
 
+        where = f"{shader.node.getNamePath()}: emission"
+
         def radiance(graph: Any) -> Any:
             return graph.value(*luminance) * (1.0 if colour is None else graph.value(*colour))
 
-        return self._emitted(radiance, self.textures.constant(radiance))
-
-    def _emitted(self, radiance: Pattern, constant: list[float] | None) -> dict[str, Any] | None:
+        constant = self.textures.constant(radiance)
         if constant is None:
-            return {"radiance": self.textures.computed(radiance)}
+            return {"radiance": self.textures.computed(radiance, where)}
         colour = [max(value, 0.0) for value in constant]
         return {"radiance": rgb(colour * (3 // len(colour)))} if any(colour) else None
 
@@ -138,3 +147,9 @@ def is_parameter(name: str) -> bool:
     if name.startswith("geometry_"):
         return name in ("geometry_opacity", THIN_WALLED)
     return not name.startswith("emission_")
+
+
+def range_of(declared: Any) -> tuple[float, float]:
+    """The least and the greatest value of an input of OpenPBR."""
+    least, most = (declared.getAttribute(name).split(",")[0] for name in ("uimin", "uimax"))
+    return float(least or "-inf"), float(most or "inf")

@@ -154,7 +154,7 @@ NODES: dict[str, Node] = {
     "ifgreatereq": compared(np.greater_equal),
     "inside": of(np.multiply, "in", "mask"),
     "invert": of(np.subtract, "amount", "in"),
-    "luminance": of(dot_product, "in", "lumacoeffs"),
+    "luminance": of(lambda x, weights: dot_product(x[..., :3], weights), "in", "lumacoeffs"),
     "minus": blended(np.subtract),
     "mix": of(mixed, "bg", "fg", "mix"),
     "outside": of(lambda x, mask: x * (1 - mask), "in", "mask"),
@@ -169,12 +169,3 @@ NODES: dict[str, Node] = {
     "splittb": split(1, "valueb", "valuet"),
     "transformmatrix": of(transformed, "in", "mat"),
 }
-
-
-def converted(x: np.ndarray, channels: int) -> np.ndarray:
-    """One number for all channels, or fewer channels of what has more."""
-    return (
-        x[..., :channels]
-        if x.shape[-1] > channels
-        else np.broadcast_to(x, (*x.shape[:-1], channels))
-    )

@@ -8,10 +8,10 @@ import numpy as np
 
 from ..imported import Imported
 from .graph import Graph
-from .origin import origin
+from .origin import Port, origin
 from .scope import Scope
 from .shaders import Shader
-from .textures import Textures
+from .textures import Pattern, Textures
 
 STRAIGHT = np.array([0.0, 0.0, 1.0])
 
@@ -23,8 +23,9 @@ def with_normals(
     port = shader.normal
     if port is None:
         return surface
+    where = f"{shader.node.getNamePath()}: normal"
     if shader.kind == "UsdPreviewSurface" and not is_normal_map(origin(port, textures.factor)):
-        return bent(surface, _encoded(port), textures)
+        return bent(surface, _encoded(port), textures, where)
     found = origin(port, textures.factor)
     if found is None or found[0].getCategory() == "normal":
         return surface
@@ -37,17 +38,19 @@ def with_normals(
     if set(scale or ()) == {1.0} and image is not None:
         return {
             "type": "normalmap",
-            "normalmap": textures.texture((image, scope), raw=True),
+            "normalmap": textures.texture((image, scope), where, raw=True),
             "bsdf": surface,
         }
-    return bent(surface, lambda graph: scaled(graph, node, scope), textures)
+    return bent(surface, lambda graph: scaled(graph, node, scope), textures, where)
 
 
 def is_normal_map(found: tuple[Any, Scope] | None) -> bool:
     return found is not None and found[0].getCategory() == "normalmap"
 
 
-def bent(surface: dict[str, Any], pattern: Any, textures: Textures) -> dict[str, Any]:
+def bent(
+    surface: dict[str, Any], pattern: Pattern, textures: Textures, where: str
+) -> dict[str, Any]:
     """A BSDF below normals (N + 1) / 2 that are computed, unless all are straight."""
     constant = textures.constant(pattern)
     if constant is not None:
@@ -55,11 +58,11 @@ def bent(surface: dict[str, Any], pattern: Any, textures: Textures) -> dict[str,
             return surface
         normals: Any = {"type": "bitmap", "data": np.array([[constant]], np.float32), "raw": True}
     else:
-        normals = textures.computed(pattern, raw=True)
+        normals = textures.computed(pattern, where, raw=True)
     return {"type": "normalmap", "normalmap": normals, "bsdf": surface}
 
 
-def _encoded(port: tuple[Any, Scope]) -> Any:
+def _encoded(port: Port) -> Pattern:
     return lambda graph: (graph.value(*port) + 1) / 2
 
 

@@ -40,21 +40,24 @@ class Textures:
         values = np.asarray(pattern(graph))
         return None if graph.uses else values.reshape(-1, values.shape[-1])[0].tolist()
 
-    def texture(self, port: Port, *, raw: bool = False) -> dict[str, Any]:
-        """A bitmap of what is not the same everywhere; `raw` are three numbers, not a colour."""
+    def texture(self, port: Port, where: str, *, raw: bool = False) -> dict[str, Any]:
+        """A bitmap of what is not the same everywhere; `raw` are three numbers, not a colour.
+
+        Raises SceneError, which says `where`, for values that are infinite or no numbers.
+        """
         found = origin(port, self.factor)
         if found is not None and found[0].getCategory() == "image":
             bitmap = self._of_file(*found, raw)
             if bitmap is not None:
                 return bitmap
-        return self.computed(lambda graph: graph.value(*port), raw=raw)
+        return self.computed(lambda graph: graph.value(*port), where, raw=raw)
 
     def factor(self, node: Any, name: str, scope: Scope) -> list[float] | None:
         """A constant input of a node."""
         return self.constant(lambda graph: graph.argument(node, name, scope))
 
-    def computed(self, pattern: Pattern, *, raw: bool = False) -> dict[str, Any]:
-        """A bitmap of an array, whose texels are computed."""
+    def computed(self, pattern: Pattern, where: str, *, raw: bool = False) -> dict[str, Any]:
+        """A bitmap of an array, whose texels are computed; otherwise as `texture`."""
         graph = self._graph(PROBES)
         channels = np.asarray(pattern(graph)).shape[-1]
         affine = common_map(graph.uses)
@@ -66,7 +69,7 @@ class Textures:
             uv = coordinates.applied(coordinates.inverse(affine), np.stack([u, v], axis=-1))
             data[rows] = pattern(self._graph(uv))
         if not np.isfinite(data).all():
-            raise _core.SceneError("a texture has values that are infinite or no numbers")
+            raise _core.SceneError(f"{where} has values that are infinite or no numbers")
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data if channels > 1 else data[..., 0]}
         if raw or channels == 1:
             bitmap["raw"] = True
