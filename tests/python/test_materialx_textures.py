@@ -1,5 +1,7 @@
 """Textures of MaterialX: images as they are, and arrays that nodes compute."""
 
+import warnings
+
 import numpy as np
 import pytest
 from materialx_files import image, linked, material, node, write
@@ -376,6 +378,57 @@ def test_values_that_are_infinite_are_refused_by_their_input(pixels):
         roughness(image("i", "colour.exr", "float", space=""), over, source="n")
 
 
+NOISE = {  # by the GLSL code that comes with MaterialX, compiled: noise, its vector, fractal, cells
+    (0.3, 0.7): (0.040744, 0.040744, 0.651012, -0.302390, -0.259577, 0.860313),
+    (-3.2, 5.6): (-0.527386, -0.527386, 0.051735, -0.707288, -0.591674, 0.679479),
+    (12.25, -7.4): (-0.177030, -0.177030, -0.355124, -0.262702, -0.202351, 0.918407),
+    (100.1, 41.9): (0.044775, 0.044775, -0.178206, 0.071812, 0.124639, 0.103970),
+}
+
+
+def at_point(category, point, kind="float"):
+    """A quarter of a noise at texture coordinates, plus a half: a number that is no texture."""
+    x = node(category, "noise", kind, texcoord=point)
+    x += node("multiply", "scaled", kind, in1=linked(kind, "noise"), in2=0.25)
+    x += node("add", "n", kind, in1=linked(kind, "scaled"), in2=0.5)
+    if kind == "float":
+        return 4 * roughness(x, source="n") - 2
+    return 4 * np.array(base_color(x, source="n")["value"]) - 2
+
+
+@pytest.mark.parametrize("point", NOISE)
+def test_noise_is_that_of_materialx(point):
+    one, *three, fractal, cell = NOISE[point]
+    assert at_point("noise2d", point) == pytest.approx(one, abs=2e-5)
+    assert at_point("noise2d", point, "color3") == pytest.approx(three, abs=2e-5)
+    assert at_point("fractal2d", point) == pytest.approx(fractal, abs=2e-5)
+    assert at_point("cellnoise2d", point) == pytest.approx(cell, abs=2e-5)
+
+
+def test_noise_is_a_texture_of_texture_coordinates():
+    noise = node("noise2d", "n", "float", amplitude=0.5, pivot=0.5)
+    data = roughness(noise, source="n")["data"]
+    u, v = texel_centres(1024, 1024)
+    row, column = 307, 307  # whose v and u are near 0.7 and 0.3
+    assert (u[row, column], v[row, column]) == pytest.approx((0.3, 0.7), abs=1e-3)
+    assert 2 * data[row, column] - 1 == pytest.approx(0.040744, abs=5e-3)
+
+
+def test_only_the_branch_that_is_taken_needs_to_be_read():
+    other = node("noise3d", "other", "float")
+    first = {"in1": 0.75, "in2": linked("float", "other"), "which": 0}
+    assert roughness(other, node("switch", "n", "float", **first), source="n") == 0.75
+    with pytest.raises(mlt.SceneError, match="'noise3d' is not read"):
+        roughness(other, node("switch", "n", "float", **first | {"which": 1}), source="n")
+
+
+def test_texels_that_are_all_the_same_are_a_number(pixels):
+    """Alpha of an image that has none is 1."""
+    alpha = node("extract", "n", "float", **{"in": linked("color4", "i")}, index=3)
+    half = node("multiply", "half", "float", in1=linked("float", "n"), in2=0.5)
+    assert roughness(image("i", "colour.png", "color4"), alpha, half, source="half") == 0.5
+
+
 # ---- parameters and normals ----------------------------------------------------------------------
 
 
@@ -418,6 +471,46 @@ def test_the_scale_of_a_normal_map_is_computed(pixels):
     expected = (2 * pixels - 1) * [0.5, 0.5, 1]
     expected /= np.linalg.norm(expected, axis=2, keepdims=True)
     assert found == pytest.approx(expected, abs=1e-5)
+
+
+def test_heights_bend_normals_against_their_slope():
+    """The height u / 2 has a slope of 1/2 along u, of which MaterialX takes a sixteenth."""
+    uv = node("texcoord", "uv", "vector2")
+    u = node("extract", "u", "float", **{"in": linked("vector2", "uv")}, index=0)
+    height = node("multiply", "height", "float", in1=linked("float", "u"), in2=0.5)
+    bump = node("bump", "n", "vector3", height=linked("float", "height"), scale=1.0)
+    made = bent_by(uv, u, height, bump)["normalmap"]["data"]
+    slope = -1 / 32
+    expected = np.array([slope, 0, 1]) / np.hypot(slope, 1)
+    assert 2 * made[5, 5] - 1 == pytest.approx(expected, abs=1e-5)
+
+
+BENT = "M_shader: its normals bend the coat, too"
+
+
+@pytest.mark.parametrize(
+    ("inputs", "expected"),
+    [
+        ({}, []),
+        ({"coat_weight": 1.0}, [BENT]),
+        ({"coat_weight": 1.0, "geometry_coat_normal": linked("vector3", "n")}, []),
+        (
+            {"coat_weight": 1.0, "geometry_coat_normal": linked("vector3", "other")},
+            ["M_shader: geometry_coat_normal is left out", BENT],
+        ),
+        ({"coat_weight": 1.0, "geometry_coat_normal": linked("vector3", "plain")}, [BENT]),
+    ],
+)
+def test_a_coat_that_lies_straight_over_bent_normals_is_a_warning(pixels, inputs, expected):
+    elements = image("i", "colour.png", "vector3", space="") + node("normal", "plain", "vector3")
+    for name in ("n", "other"):
+        elements += node("normalmap", name, "vector3", **{"in": linked("vector3", "i")})
+    given = {"geometry_normal": linked("vector3", "n")} | inputs
+    write("a.mtlx", elements, material("open_pbr_surface", **given))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        mlt.load_materials("a.mtlx")
+    assert [str(one.message) for one in caught] == [f"a.mtlx: {text}" for text in expected]
 
 
 def test_the_surface_s_own_normals_bend_nothing():

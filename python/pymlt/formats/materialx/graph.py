@@ -19,6 +19,7 @@ from .units import converted_unit
 COLOURS = ("color3", "color4")
 COUNTS = {"color3": 3, "color4": 4, "vector2": 2, "vector3": 3, "vector4": 4, "matrix33": 9}
 COUNTS |= {"float": 1, "integer": 1, "boolean": 1, "matrix44": 16}
+STEP = 1 / 2048  #: of texture coordinates, on both sides of a point at which a slope is wanted
 #: Names of texture coordinates in programs that write MaterialX.
 UV_SETS = ("", "st", "st0", "UVMap", "uv", "uv0", "map1", "UV0", "UV", "i_texcoord_0")
 
@@ -107,6 +108,8 @@ class Graph:
                 return self._geometry("UV0", node)
             case "geompropvalue" if node.getType() == "vector2" and given("geomprop") in UV_SETS:
                 return self._geometry("UV0", node)
+            case "heighttonormal":
+                return self._slopes(node, scope)
             case "convert":
                 return full(given("in"), node.getType())
         if category not in NODES:
@@ -127,6 +130,25 @@ class Graph:
         if pixels is None:
             return given("default")
         return lookup.sampled(pixels, coordinates, given("default"))
+
+    def _slopes(self, node: Any, scope: Scope) -> np.ndarray:
+        """Normals (N + 1) / 2 of heights over texture coordinates, by differences of these.
+
+        A sixteenth of the slope is that of the nodes that MaterialX generates for viewers.
+        """
+        self.argument(node, "in", scope)  # for its uses
+        factor = self.argument(node, "scale", scope) / 16
+        parts = []
+        for axis in np.eye(2):
+            ahead, behind = (
+                Graph(self._document, self._images, self._uv + sign * STEP * axis)
+                for sign in (1, -1)
+            )
+            rise = ahead.argument(node, "in", scope) - behind.argument(node, "in", scope)
+            parts.append(-factor * rise / (2 * STEP))
+        normal = np.concatenate([*np.broadcast_arrays(*parts, np.ones(parts[0].shape))], axis=-1)
+        unit: np.ndarray = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+        return (unit + 1) / 2
 
     def _geometry(self, name: str, node: Any) -> np.ndarray:
         if name != "UV0":
@@ -237,8 +259,8 @@ def refused(node: Any) -> _core.SceneError:
     """An error for a node that is no function of texture coordinates, or not one of ours."""
     return _core.SceneError(
         f"{path_of(node)}: the node {node.getCategory()!r} is not read; read are image, texcoord, "
-        f"geompropvalue of texture coordinates, {', '.join(sorted(NODES))}, and all that are "
-        "made of these, such as tiledimage, place2d and checkerboard"
+        f"geompropvalue of texture coordinates, heighttonormal, {', '.join(sorted(NODES))}, and "
+        "all that are made of these, such as tiledimage, place2d and checkerboard"
     )
 
 

@@ -64,6 +64,9 @@ class Materials:
             self._made.warn(f"{shader.node.getNamePath()}: {name} is left out")
         surface = {"type": "openpbr"} | self._parameters(shader)
         made = {"bsdf": with_normals(surface, shader, self.textures, self._made)}
+        bends = made["bsdf"] is not surface and "coat_weight" in surface
+        if bends and shader.coat_has_its_own_normals:
+            self._made.warn(f"{shader.node.getNamePath()}: its normals bend the coat, too")
         radiance = self._radiance(shader)
         return made if radiance is None else made | {"emitter": {"type": "area", **radiance}}
 
@@ -90,14 +93,17 @@ class Materials:
         where = f"{shader.node.getNamePath()}: {name}"
         constant = self.textures.constant(lambda graph: graph.value(*port))
         if constant is None and name not in UNTEXTURED:
-            return self._clipped(self.textures.texture(port, where), declared, where)
+            bitmap = self.textures.texture(port, where)
+            constant = uniform(bitmap)
+            if constant is None:
+                return self._clipped(bitmap, declared, where)
         if constant is None:
             self._made.warn(f"{where} is a texture, of which the mean is taken")
             data = self.textures.computed(lambda graph: graph.value(*port), where)["data"]
             constant = data.reshape(-1, data.shape[2] if data.ndim > 2 else 1).mean(axis=0).tolist()
         constant = self._in_range(constant, declared, where)
         default = self.textures.constant(lambda graph: graph.constant(declared))
-        if np.allclose(constant, default, rtol=1e-9):
+        if default is not None and np.allclose(constant, default, rtol=1e-9):
             return None
         if name == THIN_WALLED:
             return bool(constant[0])
@@ -138,8 +144,8 @@ class Materials:
         constant = self.textures.constant(radiance)
         if constant is None:
             return {"radiance": self.textures.computed(radiance, where)}
-        colour = [max(value, 0.0) for value in constant]
-        return {"radiance": rgb(colour * (3 // len(colour)))} if any(colour) else None
+        emitted = [max(value, 0.0) for value in constant]
+        return {"radiance": rgb(emitted * (3 // len(emitted)))} if any(emitted) else None
 
 
 def is_parameter(name: str) -> bool:
@@ -153,3 +159,11 @@ def range_of(declared: Any) -> tuple[float, float]:
     """The least and the greatest value of an input of OpenPBR."""
     least, most = (declared.getAttribute(name).split(",")[0] for name in ("uimin", "uimax"))
     return float(least or "-inf"), float(most or "inf")
+
+
+def uniform(bitmap: dict[str, Any]) -> list[float] | None:
+    """The numbers of a computed texture whose texels are all the same, such as alpha of none."""
+    data = bitmap.get("data")
+    if data is None or not (data == data[0, 0]).all():
+        return None
+    return np.atleast_1d(data[0, 0]).astype(float).tolist()

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 
 from .hsv import hsv_to_rgb, rgb_to_hsv
+from .noise import cells, fractal, perlin
 
 Inputs = Callable[[str], Any]  #: the value of an input by its name
-Node = Callable[[Inputs], np.ndarray]
+Node = Callable[[Inputs], Any]
+OCTAVES = 32  #: of fractal noise; finer ones are lost in texels
 
 
 def of(function: Callable[..., Any], *names: str) -> Node:
@@ -31,10 +33,15 @@ def blended(function: Callable[[Any, Any], Any]) -> Node:
 
 
 def compared(relation: Callable[[Any, Any], Any]) -> Node:
-    """One input or another, as two values compare."""
-    return lambda given: np.where(
-        relation(given("value1"), given("value2")), given("in1"), given("in2")
-    )
+    """One input or another, as two values compare; where these are constants, it alone is used."""
+
+    def chosen(given: Inputs) -> Any:
+        condition = relation(given("value1"), given("value2"))
+        if condition.size == 1:
+            return given("in1" if condition.item() else "in2")
+        return np.where(condition, given("in1"), given("in2"))
+
+    return chosen
 
 
 def ramp(axis: int, start: str, end: str) -> Node:
@@ -99,6 +106,19 @@ def joined(count: int) -> Node:
     return combine
 
 
+def noisy(given: Inputs) -> Any:
+    amplitude = given("amplitude")
+    return amplitude * perlin(given("texcoord"), amplitude.shape[-1]) + given("pivot")
+
+
+def fractally_noisy(given: Inputs) -> Any:
+    amplitude, octaves = given("amplitude"), int(given("octaves").item())
+    if octaves > OCTAVES:
+        raise ValueError(f"fractal noise has {octaves} octaves, but at most {OCTAVES} are possible")
+    each = [given(name).item() for name in ("lacunarity", "diminish")]
+    return amplitude * fractal(given("texcoord"), amplitude.shape[-1], octaves, *each)
+
+
 def premultiplied(x: Any) -> Any:
     return np.concatenate([x[..., :3] * x[..., 3:], x[..., 3:]], axis=-1)
 
@@ -145,10 +165,12 @@ NODES: dict[str, Node] = {
     **{name: of(function, "in1", "in2") for name, function in BINARY.items()},
     **{f"combine{count}": joined(count) for count in (2, 3, 4)},
     "atan2": of(np.arctan2, "iny", "inx"),
+    "cellnoise2d": of(cells, "texcoord"),
     "clamp": of(lambda x, low, high: np.minimum(np.maximum(x, low), high), "in", "low", "high"),
     "constant": of(lambda x: x, "value"),
     "difference": blended(lambda b, f: np.abs(b - f)),
     "extract": of(extracted, "in", "index"),
+    "fractal2d": fractally_noisy,
     "ifequal": compared(np.equal),
     "ifgreater": compared(np.greater),
     "ifgreatereq": compared(np.greater_equal),
@@ -157,6 +179,7 @@ NODES: dict[str, Node] = {
     "luminance": of(lambda x, weights: dot_product(x[..., :3], weights), "in", "lumacoeffs"),
     "minus": blended(np.subtract),
     "mix": of(mixed, "bg", "fg", "mix"),
+    "noise2d": noisy,
     "outside": of(lambda x, mask: x * (1 - mask), "in", "mask"),
     "plus": blended(np.add),
     "ramplr": ramp(0, "valuel", "valuer"),

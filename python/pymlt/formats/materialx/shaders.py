@@ -16,13 +16,14 @@ from .origin import Port
 from .scope import FILE
 
 OPENPBR = "open_pbr_surface"
-#: The graph that makes OpenPBR of a shader, and its input for normals.
+#: The graph that makes OpenPBR of a shader, and its inputs for normals of all and of the coat.
 SHADERS = {
-    OPENPBR: ("", "geometry_normal"),
-    "standard_surface": ("NG_standard_surface_to_open_pbr_surface", "normal"),
-    "gltf_pbr": ("NG_gltf_pbr_to_open_pbr_surface", "normal"),
-    "UsdPreviewSurface": ("NG_UsdPreviewSurface_to_open_pbr_surface", "normal"),
+    OPENPBR: ("", "geometry_normal", "geometry_coat_normal"),
+    "standard_surface": ("NG_standard_surface_to_open_pbr_surface", "normal", "coat_normal"),
+    "gltf_pbr": ("NG_gltf_pbr_to_open_pbr_surface", "normal", "clearcoat_normal"),
+    "UsdPreviewSurface": ("NG_UsdPreviewSurface_to_open_pbr_surface", "normal", "normal"),
 }
+TANGENTS = {"geometry_tangent", "geometry_coat_tangent"}  #: of OpenPBR, which are not read
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Shader:
     @property
     def graph(self) -> Any:
         """The graph that makes OpenPBR of it, None if it is that."""
-        name, _ = SHADERS[self.kind]
+        name = SHADERS[self.kind][0]
         return standard_nodes().getNodeGraph(name) if name else None
 
     def port(self, name: str) -> Port | None:
@@ -58,9 +59,20 @@ class Shader:
         """The normals that the file gives."""
         return self.given(SHADERS[self.kind][1])
 
+    @property
+    def coat_has_its_own_normals(self) -> bool:
+        """Whether the file does not give the coat those that it gives all."""
+        all_of_it, coat = (self.node.getInput(name) for name in SHADERS[self.kind][1:])
+        links = ("nodename", "nodegraph", "output")
+        return coat is None or any(
+            coat.getAttribute(link) != all_of_it.getAttribute(link) for link in links
+        )
+
     def left_out(self) -> list[str]:
         """The names of inputs that the file gives and that do not become any of OpenPBR."""
         known = self._read() | {SHADERS[self.kind][1]}
+        if self.normal is not None and not self.coat_has_its_own_normals:
+            known.add(SHADERS[self.kind][2])
         return [
             given.getName()
             for given in self.node.getInputs()
@@ -69,11 +81,8 @@ class Shader:
 
     def _read(self) -> set[str]:
         if self.graph is None:
-            return {given.getName() for given in definition(self.node).getActiveInputs()} - {
-                "geometry_coat_normal",
-                "geometry_tangent",
-                "geometry_coat_tangent",
-            }
+            defined = {given.getName() for given in definition(self.node).getActiveInputs()}
+            return defined - TANGENTS - {SHADERS[OPENPBR][2]}
         inner = [given for node in self.graph.getNodes() for given in node.getInputs()]
         return {given.getInterfaceName() for given in inner}
 

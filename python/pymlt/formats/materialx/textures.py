@@ -100,6 +100,7 @@ class Textures:
 
     def _size(self, uses: list[Use], affine: np.ndarray) -> tuple[int, int]:
         """The width and height at which no image of a pattern loses texels."""
+        sizes: list[tuple[float, float]]
         sizes = [(PLAIN, PLAIN)] if any(use.lookup is None for use in uses) else [(1, 1)]
         for use in uses:
             if use.lookup is not None:
