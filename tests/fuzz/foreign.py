@@ -33,6 +33,7 @@ def fuzz(read: Callable[[bytes], None], **options: Any) -> None:
     with atheris.instrument_imports(include=["pymlt"], enable_loader_override=False):
         import pymlt.formats.files
         import pymlt.formats.gltf
+        import pymlt.formats.materialx.reader
         import pymlt.formats.pbrt  # noqa: F401
     atheris.Setup(sys.argv, read, **options)
     atheris.Fuzz()

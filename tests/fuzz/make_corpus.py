@@ -27,6 +27,7 @@ COMPRESSIONS = ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dw
 LONGEST = 4096  # bytes of a scene; tests/fuzz/run.sh has libFuzzer cut off what is longer
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent / "python"))
+import materialx_files as mx  # noqa: E402
 from gltf_files import GltfFile  # noqa: E402
 from random_scene import FOLDER as SCENES  # noqa: E402
 from random_scene import random_scene  # noqa: E402
@@ -291,6 +292,41 @@ def make_gltf() -> None:
                 write("gltf", f"{name}.{extension}", text)
 
 
+def make_materialx() -> None:
+    """Each shader; nodes that become images; includes, units and colour spaces."""
+    glow = mx.material("UsdPreviewSurface", name="U", opacity=0.5, emissiveColor=(1, 1, 1.0))
+    film = {"type": "float", "value": "300", "unit": "nanometer", "unittype": "distance"}
+    shaders = (
+        mx.material("open_pbr_surface", base_color=(0.5, 0.2, 0.1), coat_weight=0.5),
+        mx.material("standard_surface", name="S", coat=0.5, thin_film_thickness=film),
+        mx.material("gltf_pbr", name="G", transmission=1.0, sheen_color=(0.2, 0.1, 0.0)),
+        glow,
+    )
+    place = {"texcoord": mx.linked("vector2", "uv"), "rotate": 30.0, "scale": (0.5, 0.25)}
+    nodes = (
+        mx.node("texcoord", "uv", "vector2"),
+        mx.node("place2d", "p", "vector2", **place),
+        mx.image("i", "input.png", texcoord=mx.linked("vector2", "p")),
+        mx.node("fractal2d", "f", "float", octaves=2, texcoord=mx.linked("vector2", "p")),
+        mx.node("mix", "m", "color3", bg=mx.linked("color3", "i"), mix=mx.linked("float", "f")),
+        mx.node("bump", "b", "vector3", height=mx.linked("float", "f")),
+        mx.material(
+            "open_pbr_surface",
+            base_color=mx.linked("color3", "m"),
+            specular_roughness=mx.linked("float", "f"),
+            geometry_normal=mx.linked("vector3", "b"),
+        ),
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        for name, elements in (
+            ("shaders", shaders),
+            ("nodes", nodes),
+            ("include", ('<xi:include href="input.mtlx"/>', glow)),
+        ):
+            path = Path(mx.write(f"{folder}/a.mtlx", *elements, colorspace="acescg"))
+            write("materialx", f"{name}.mtlx", path.read_bytes())
+
+
 PBRT_VIEW = """LookAt 0 1 4  0 1 0  0 1 0
 CoordinateSystem "a" CoordSysTransform "a"
 Camera "perspective" "float fov" 40 "float lensradius" .1
@@ -418,6 +454,7 @@ if __name__ == "__main__":
     make_spectra()
     make_scenes()
     make_gltf()
+    make_materialx()
     make_pbrt()
     make_checkpoints()
     make_words()

@@ -15,10 +15,9 @@ from .images import Images, Lookup
 from .nodes import NODES
 from .scope import FILE, File, Scope
 from .units import converted_unit
+from .values import COUNTS, checked, full, numbers, path_of
 
 COLOURS = ("color3", "color4")
-COUNTS = {"color3": 3, "color4": 4, "vector2": 2, "vector3": 3, "vector4": 4, "matrix33": 9}
-COUNTS |= {"float": 1, "integer": 1, "boolean": 1, "matrix44": 16}
 STEP = 1 / 2048  #: of texture coordinates, on both sides of a point at which a slope is wanted
 #: Names of texture coordinates in programs that write MaterialX.
 UV_SETS = ("", "st", "st0", "UVMap", "uv", "uv0", "map1", "UV0", "UV", "i_texcoord_0")
@@ -48,11 +47,11 @@ class Graph:
     def argument(self, node: Any, name: str, scope: Scope = FILE) -> Any:
         """The value of a node's input, which may be its default."""
         given = node.getInput(name)
-        if given is not None and is_set(given):
-            return self.value(given, scope)
         declared = definition(node).getActiveInput(name)
         if declared is None:
             raise _core.SceneError(f"{path_of(node)}: the node has no input {name!r}")
+        if given is not None and is_set(given):
+            return checked(self.value(given, scope), declared.getType(), given)
         if declared.getDefaultGeomPropString():
             return self._geometry(declared.getDefaultGeomPropString(), node)
         return self.constant(declared)
@@ -95,8 +94,7 @@ class Graph:
     def _computed(self, node: Any, output: str, scope: Scope) -> Any:
         graph = implementation(node)
         if graph is not None:
-            found = graph.getOutput(output) if output else graph.getOutputs()[0]
-            return self.value(found, scope.inside(node))
+            return self.value(output_of(graph, output, node), scope.inside(node))
 
         def given(name: str) -> Any:
             return self.argument(node, name, scope)
@@ -197,22 +195,18 @@ class Graph:
         return np.concatenate([linear, colours[..., 3:]], axis=-1)
 
 
-def full(values: np.ndarray, kind: str) -> np.ndarray:
-    """One number for all channels of a type, or fewer channels of what has more."""
-    count = COUNTS[kind]
-    if values.shape[-1] > count:
-        return values[..., :count]
-    return np.broadcast_to(values, (*values.shape[:-1], count))
+def output_of(graph: Any, name: str, node: Any) -> Any:
+    """An output of the graph that a node is made of, the first one if no name is given."""
+    found = graph.getOutput(name) if name else next(iter(graph.getOutputs()), None)
+    if found is None:
+        raise _core.SceneError(f"{path_of(node)}: the node has no output {name!r}")
+    return found
 
 
 def is_set(port: Any) -> bool:
     """Whether an input has a value or a connection."""
     attributes = ("value", "nodename", "nodegraph", "interfacename")
     return any(port.getAttribute(name) for name in attributes)
-
-
-def path_of(element: Any) -> str:
-    return element.getNamePath()
 
 
 def definition(node: Any) -> Any:
@@ -262,16 +256,3 @@ def refused(node: Any) -> _core.SceneError:
         f"geompropvalue of texture coordinates, heighttonormal, {', '.join(sorted(NODES))}, and "
         "all that are made of these, such as tiledimage, place2d and checkerboard"
     )
-
-
-def numbers(text: str, count: int, port: Any) -> list[float]:
-    """The numbers of a constant; none are zeros, as in MaterialX."""
-    words = {"true": "1", "false": "0", "": "0"}
-    try:
-        values = [float(words.get(word.strip(), word)) for word in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) not in (1, count) or not np.isfinite(values).all():
-        expected = "a number" if count == 1 else f"{count} numbers"
-        raise _core.SceneError(f"{path_of(port)}: is {text!r:.80}, but should be {expected}")
-    return values * (count // len(values))

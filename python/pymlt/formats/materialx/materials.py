@@ -9,9 +9,12 @@ import numpy as np
 from ... import _core
 from ..imported import Imported, rgb
 from .document import standard_nodes
+from .graph import Graph
 from .normals import with_normals
+from .origin import Port
 from .shaders import OPENPBR, Shader, shader_of
-from .textures import Textures
+from .textures import Pattern, Textures
+from .values import checked, full
 
 #: Parameters that are numbers or colours alone: of a texture the mean is taken.
 UNTEXTURED = {
@@ -91,7 +94,8 @@ class Materials:
         if port is None:
             return None
         where = f"{shader.node.getNamePath()}: {name}"
-        constant = self.textures.constant(lambda graph: graph.value(*port))
+        pattern = typed(port, declared.getType())
+        constant = self.textures.constant(pattern)
         if constant is None and name not in UNTEXTURED:
             bitmap = self.textures.texture(port, where)
             constant = uniform(bitmap)
@@ -99,7 +103,7 @@ class Materials:
                 return self._clipped(bitmap, declared, where)
         if constant is None:
             self._made.warn(f"{where} is a texture, of which the mean is taken")
-            data = self.textures.computed(lambda graph: graph.value(*port), where)["data"]
+            data = self.textures.computed(pattern, where)["data"]
             constant = data.reshape(-1, data.shape[2] if data.ndim > 2 else 1).mean(axis=0).tolist()
         constant = self._in_range(constant, declared, where)
         default = self.textures.constant(lambda graph: graph.constant(declared))
@@ -135,17 +139,23 @@ class Materials:
         luminance, colour = (shader.port(f"emission_{name}") for name in ("luminance", "color"))
         if luminance is None:
             return None
+        strength = typed(luminance, "float")
+        tint = typed(colour, "color3") if colour is not None else lambda _: np.ones((1, 1, 3))
+
+        def radiance(graph: Graph) -> np.ndarray:
+            return strength(graph) * tint(graph)
 
         where = f"{shader.node.getNamePath()}: emission"
-
-        def radiance(graph: Any) -> Any:
-            return graph.value(*luminance) * (1.0 if colour is None else graph.value(*colour))
-
         constant = self.textures.constant(radiance)
         if constant is None:
             return {"radiance": self.textures.computed(radiance, where)}
         emitted = [max(value, 0.0) for value in constant]
-        return {"radiance": rgb(emitted * (3 // len(emitted)))} if any(emitted) else None
+        return {"radiance": rgb(emitted)} if any(emitted) else None
+
+
+def typed(port: Port, kind: str) -> Pattern:
+    """What an input of OpenPBR is given, if it is of the type that this input has."""
+    return lambda graph: full(checked(graph.value(*port), kind, port[0]), kind)
 
 
 def is_parameter(name: str) -> bool:

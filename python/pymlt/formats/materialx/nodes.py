@@ -91,6 +91,8 @@ def transformed(x: Any, matrix: Any) -> Any:
 
 def extracted(x: Any, index: Any) -> Any:
     i = int(index.flat[0])
+    if not 0 <= i < x.shape[-1]:
+        raise ValueError(f"channel {i} is not among the {x.shape[-1]} of a value")
     return x[..., i : i + 1]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from .graph import implementation, interface, is_set
+from .graph import implementation, interface, is_set, output_of
 from .scope import FILE, Scope
 
 Port = tuple[Any, Scope]  #: an input or an output, and where it stands
@@ -37,8 +37,7 @@ def step(port: Any, scope: Scope, factor: Factor) -> tuple[Node | None, Port | N
     if node is None:
         return None, None
     if (graph := implementation(node)) is not None:
-        name = port.getOutputString()
-        output = graph.getOutput(name) if name else graph.getOutputs()[0]
+        output = output_of(graph, port.getOutputString(), node)
         return None, (output, scope.inside(node))
     unchanged = handed_on(node, scope, factor)
     if unchanged is not None and is_set(unchanged):

@@ -11,9 +11,10 @@ from typing import Any
 
 from ... import _core
 from .document import standard_nodes
-from .graph import definition, is_set, path_of
+from .graph import definition, is_set
 from .origin import Port
 from .scope import FILE
+from .values import path_of
 
 OPENPBR = "open_pbr_surface"
 #: The graph that makes OpenPBR of a shader, and its inputs for normals of all and of the coat.
