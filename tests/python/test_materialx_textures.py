@@ -372,6 +372,32 @@ def test_nodes_in_a_circle_are_refused():
         roughness(one, two, source="a")
 
 
+def test_graphs_that_multiply_are_refused():
+    """Each node is made of two of the one before: 2^20 in all."""
+    text = ""
+    for level in range(20):
+        inner = f"n{level - 1}" if level else "invert"
+        text += (
+            f'<nodedef name="ND_n{level}" node="n{level}"><input name="in" type="float" value="0"/>'
+            f'<output name="out" type="float"/></nodedef><nodegraph name="NG_n{level}" '
+            f'nodedef="ND_n{level}"><{inner} name="a" type="float"><input name="in" type="float" '
+            f'interfacename="in"/></{inner}><{inner} name="b" type="float"><input name="in" '
+            'type="float" nodename="a"/></' + inner + '><output name="out" type="float" '
+            'nodename="b"/></nodegraph>'
+        )
+    with pytest.raises(mlt.SceneError, match=r"^a\.mtlx: .*(more than 10000 nodes|100 deep)"):
+        roughness(text, node("n19", "n", "float", **{"in": 0.5}), source="n")
+
+
+def test_slopes_of_slopes_are_refused():
+    height = node("heighttonormal", "h", "vector3", **{"in": 0.5})
+    height += node("extract", "x", "float", **{"in": linked("vector3", "h")}, index=0)
+    height += node("heighttonormal", "g", "vector3", **{"in": linked("float", "x")})
+    height += node("extract", "n", "float", **{"in": linked("vector3", "g")}, index=0)
+    with pytest.raises(mlt.SceneError, match=r"^a\.mtlx: h: makes slopes of slopes"):
+        roughness(height, source="n")
+
+
 def test_values_that_are_infinite_are_refused_by_their_input(pixels):
     over = node("divide", "n", "float", in1=linked("float", "i"), in2=0.0)
     with pytest.raises(mlt.SceneError, match=r"^a\.mtlx: M_shader: specular_roughness .*infinite"):

@@ -18,6 +18,7 @@ from .units import converted_unit
 from .values import COUNTS, checked, full, numbers, path_of
 
 COLOURS = ("color3", "color4")
+EXPANDED = 10_000  #: nodes that a value is made of, with those in the graphs of nodes
 STEP = 1 / 2048  #: of texture coordinates, on both sides of a point at which a slope is wanted
 #: Names of texture coordinates in programs that write MaterialX.
 UV_SETS = ("", "st", "st0", "UVMap", "uv", "uv0", "map1", "UV0", "UV", "i_texcoord_0")
@@ -34,10 +35,11 @@ class Use:
 class Graph:
     """A document at texture coordinates (height, width, 2), where v points up."""
 
-    def __init__(self, document: Any, images: Images, uv: np.ndarray):
+    def __init__(self, document: Any, images: Images, uv: np.ndarray, *, sloped: bool = False):
         self._document = document
         self._images = images
         self._uv = uv
+        self._sloped = sloped  #: whether slopes are made of what is computed here
         self._known: dict[tuple[str, str, str, bool], Any] = {}
         self._depth = 0
         self._conversions = 0
@@ -83,6 +85,8 @@ class Graph:
         key = (scope.key, node.getNamePath(), output, self._placing > 0)
         if key not in self._known:
             self._depth += 1
+            if len(self._known) > EXPANDED:
+                raise _core.SceneError(f"{path_of(node)}: is one of more than {EXPANDED} nodes")
             if self._depth > NESTING:
                 raise _core.SceneError(
                     f"{path_of(node)}: nodes are connected more than {NESTING} deep, or in a circle"
@@ -134,12 +138,14 @@ class Graph:
 
         A sixteenth of the slope is that of the nodes that MaterialX generates for viewers.
         """
+        if self._sloped:
+            raise _core.SceneError(f"{path_of(node)}: makes slopes of slopes")
         self.argument(node, "in", scope)  # for its uses
         factor = self.argument(node, "scale", scope) / 16
         parts = []
         for axis in np.eye(2):
             ahead, behind = (
-                Graph(self._document, self._images, self._uv + sign * STEP * axis)
+                Graph(self._document, self._images, self._uv + sign * STEP * axis, sloped=True)
                 for sign in (1, -1)
             )
             rise = ahead.argument(node, "in", scope) - behind.argument(node, "in", scope)

@@ -82,7 +82,7 @@ def wrapped(index: np.ndarray, count: int, mode: str) -> np.ndarray:
 
 @dataclass
 class Images:
-    """The images of a document, each read once, and those that are missing."""
+    """The images of a document, each read once for a material, and those that are missing."""
 
     missing: dict[str, str] = field(default_factory=dict)  #: and where they are named
     _read: dict[tuple[str, str, str], np.ndarray] = field(default_factory=dict)
@@ -100,6 +100,10 @@ class Images:
         if key not in self._read:
             self._read[key] = channels_of(lookup, linear).astype(np.float32)
         return self._read[key]
+
+    def forget(self) -> None:
+        """Frees the pixels; images are read again where they are needed again."""
+        self._read.clear()
 
     def size(self, lookup: Lookup) -> tuple[int, int]:
         """The width and height of an image that has been looked up; 1 of a missing one."""

@@ -57,6 +57,7 @@ class Materials:
                 if given.getName() != "surfaceshader" and given.getConnectedNode() is not None:
                     self._made.warn(f"{given.getNamePath()}: {given.getName()} is left out")
             found[material.getName()] = self.parts(shader_of(material))
+            self.textures.images.forget()
         if not found:
             raise _core.SceneError("there is no surfacematerial in the file")
         return found
