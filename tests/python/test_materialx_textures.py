@@ -20,7 +20,7 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def pixels():
-    """Those of colour.exr in linear light; colour.png has them encoded, in steps of 1 / 255."""
+    """The linear light of colour.exr; colour.png has it encoded, in steps of 1 / 255."""
     found = np.random.default_rng(7).random((HEIGHT, WIDTH, 3)).astype(np.float32)
     mlt.write_image("colour.exr", found)
     mlt.write_image("colour.png", found)
@@ -547,6 +547,44 @@ def test_normals_of_usd_are_not_encoded(pixels):
     normals = image("i", "colour.exr", "vector3", space="")
     made = bent_by(normals, category="UsdPreviewSurface", name="normal", source="i")
     assert made["normalmap"]["data"] == pytest.approx((pixels + 1) / 2, abs=1e-6)
+
+
+def test_textures_of_usd_are_scaled_and_taken_apart(pixels):
+    """By the names of texture coordinates that programs of USD write."""
+    nodes = node("UsdPrimvarReader", "st", "vector2", varname="st")
+    given = {"file": {"type": "filename", "value": "colour.exr"}, "st": linked("vector2", "st")}
+    given["scale"] = {"type": "color4", "value": "0.5, 0.25, 1, 1"}
+    nodes += node("UsdUVTexture", "t", "multioutput", **given)
+    inputs = {
+        "diffuseColor": linked("color3", "t", output="rgb"),
+        "roughness": linked("float", "t", output="g"),
+    }
+    write("a.mtlx", nodes, material("UsdPreviewSurface", **inputs))
+    made = mlt.load_materials("a.mtlx")["M"]["bsdf"]
+    assert made["base_color"]["data"] == pytest.approx(pixels * [0.5, 0.25, 1], abs=1e-6)
+    assert made["specular_roughness"]["data"] == pytest.approx(pixels[..., 1] / 4, abs=1e-6)
+
+
+def test_textures_of_gltf_have_factors_alpha_and_normals(folder, pixels):
+    alpha = np.linspace(0, 1, HEIGHT * WIDTH, dtype=np.float32).reshape(HEIGHT, WIDTH, 1)
+    mlt.write_image("alpha.exr", np.concatenate([pixels, alpha], axis=2))
+    file = {"type": "filename", "value": "alpha.exr"}
+    factor = {"type": "color4", "value": "1, 0.5, 1, 0.5"}
+    nodes = node("gltf_colorimage", "c", "multioutput", file=file, color=factor)
+    normals = {"type": "filename", "value": "colour.png"}
+    nodes += node("gltf_normalmap", "n", "vector3", file=normals)
+    inputs = {
+        "base_color": linked("color3", "c", output="outcolor"),
+        "alpha": linked("float", "c", output="outa"),
+        "alpha_mode": 2,
+        "normal": linked("vector3", "n"),
+    }
+    write("a.mtlx", nodes, material("gltf_pbr", **inputs))
+    made = mlt.load_materials("a.mtlx")["M"]["bsdf"]
+    assert made["normalmap"]["filename"] == str(folder / "colour.png")
+    surface = made["bsdf"]
+    assert surface["base_color"]["data"] == pytest.approx(pixels * [1, 0.5, 1], abs=1e-6)
+    assert surface["geometry_opacity"]["data"] == pytest.approx(alpha[..., 0] / 2, abs=1e-6)
 
 
 def test_textures_go_through_the_translation_of_standard_surface(folder, pixels):

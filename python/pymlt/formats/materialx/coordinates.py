@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    pass
-
-Affine = "NDArray[np.float64]"  #: (2, 3), from u, v and 1
-
-IDENTITY = np.eye(2, 3)
+IDENTITY = np.eye(2, 3)  #: from u, v and 1
 
 
 def fitted(before: np.ndarray, after: np.ndarray) -> np.ndarray | None:
@@ -45,7 +38,7 @@ def inverse(affine: np.ndarray) -> np.ndarray:
 
 
 def to_uv(affine: np.ndarray) -> np.ndarray:
-    """The same map where v points down, (4, 4), for `to_uv` of a `bitmap`."""
+    """A map where v points down instead, (4, 4), for `to_uv` of a `bitmap`."""
     flip = np.array([[1, 0, 0], [0, -1, 1], [0, 0, 1.0]])
     turned = flip @ square(affine) @ flip
     matrix = np.eye(4)
