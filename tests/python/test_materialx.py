@@ -157,7 +157,7 @@ def test_numbers_outside_of_their_range_are_clipped_with_a_warning():
 
 
 def test_inputs_that_openpbr_does_not_have_are_named():
-    expected = ["'specular_rotation' doesn't match declaration"]
+    expected = ["M_shader: specular_rotation is left out"]
     made = bsdf("open_pbr_surface", expected, specular_rotation=0.25, specular_roughness=0.1)
     assert made == {"type": "openpbr", "specular_roughness": 0.1}
 
@@ -305,6 +305,14 @@ def test_other_shaders_are_an_error_that_names_those_which_are_read():
     message = r"^a\.mtlx: M_shader: the shader 'disney_principled' .*standard_surface, gltf_pbr"
     with pytest.raises(mlt.SceneError, match=message):
         mlt.load_materials("a.mtlx")
+
+
+def test_what_an_input_names_and_does_not_exist_is_an_error():
+    for link in ({"nodename": "none"}, {"nodegraph": "none", "output": "out"}):
+        write("a.mtlx", material("open_pbr_surface", base_color={"type": "color3", **link}))
+        message = r"^a\.mtlx: M_shader/base_color: is connected to what does not exist"
+        with pytest.raises(mlt.SceneError, match=message):
+            mlt.load_materials("a.mtlx")
 
 
 # ---- files ---------------------------------------------------------------------------------------

@@ -80,8 +80,7 @@ def test_an_image_that_nothing_changes_is_a_bitmap_of_its_file(folder, pixels, f
 
 
 def test_colours_in_other_spaces_are_converted(pixels):
-    with pytest.warns(UserWarning, match="base_color goes from .*, and is clipped to 0 to 1"):
-        made = base_color(image("i", "colour.exr", space="acescg"), source="i")
+    made = base_color(image("i", "colour.exr", space="acescg"), source="i")
     matrix = np.array([[1.70505, -0.62179, -0.08326], [-0.13026, 1.1408, -0.01055]])
     expected = np.clip(pixels @ matrix.T, 0, 1)
     assert made["data"][..., :2] == pytest.approx(expected, abs=1e-4)
@@ -398,10 +397,24 @@ def test_slopes_of_slopes_are_refused():
         roughness(height, source="n")
 
 
-def test_values_that_are_infinite_are_refused_by_their_input(pixels):
+def test_computed_values_are_clipped_to_the_range_of_the_parameter(pixels):
     over = node("divide", "n", "float", in1=linked("float", "i"), in2=0.0)
+    picture = image("i", "colour.exr", "float", space="")
+    assert roughness(picture, over, source="n") == 1
+    twice = node("multiply", "n", "float", in1=linked("float", "i"), in2=2.0)
+    found = roughness(picture, twice, source="n")["data"]
+    assert found == pytest.approx(np.minimum(2 * pixels[..., 0], 1))
+
+
+def test_values_that_are_infinite_or_no_numbers_are_refused_by_their_input(pixels):
+    root = node("ln", "n", "float", **{"in": linked("float", "minus")})
+    minus = node("multiply", "minus", "float", in1=linked("float", "i"), in2=-1.0)
+    picture = image("i", "colour.exr", "float", space="")
     with pytest.raises(mlt.SceneError, match=r"^a\.mtlx: M_shader: specular_roughness .*infinite"):
-        roughness(image("i", "colour.exr", "float", space=""), over, source="n")
+        roughness(picture, minus, root, source="n")
+    over = node("divide", "n", "float", in1=linked("float", "i"), in2=0.0)
+    with pytest.raises(mlt.SceneError, match=r"^a\.mtlx: M_shader: specular_weight .*infinite"):
+        shader(picture, over, specular_weight=linked("float", "n"))
 
 
 NOISE = {  # by the GLSL code that comes with MaterialX, compiled: noise, its vector, fractal, cells

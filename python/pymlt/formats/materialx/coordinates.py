@@ -13,7 +13,7 @@ def fitted(before: np.ndarray, after: np.ndarray) -> np.ndarray | None:
     target = np.broadcast_to(after, before.shape).reshape(-1, 2)
     if not np.isfinite(target).all():
         return None
-    solution = np.linalg.lstsq(points, target, rcond=None)[0]
+    solution = np.linalg.lstsq(points, target, rcond=None)[0].round(12)
     worst = np.abs(points @ solution - target).max()
     return solution.T if worst <= 1e-6 * max(1.0, np.abs(target).max()) else None
 

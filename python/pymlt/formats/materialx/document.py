@@ -8,10 +8,8 @@ from typing import Any
 
 from ... import _core
 from ..._extras import import_extra
-from ..imported import Imported
 from ..limits import INCLUDES, INCLUDES_DEEP, TEXT, read_file
 
-COMPLAINTS = 20  #: that are passed on, of the many that one mistake may cause
 TRANSLATIONS = Path(__file__).parent / "translations.mtlx"
 
 
@@ -32,19 +30,13 @@ def standard_nodes() -> Any:
     return made
 
 
-def read_document(path: Path, made: Imported) -> Any:
-    """A file with what it includes; warns of what is not valid in it.
-
-    Raises FileError and SceneError, which name the file.
-    """
+def read_document(path: Path) -> Any:
+    """A file with what it includes. Raises FileError and SceneError, which name the file."""
     mx = library()
     document = mx.createDocument()
     document.setDataLibrary(standard_nodes())
     budget = {"files": INCLUDES, "bytes": TEXT}
     read_into(document, path, budget, INCLUDES_DEEP)
-    _, complaints = document.validate()
-    for complaint in complaints.splitlines()[:COMPLAINTS]:
-        made.warn(complaint)
     return document
 
 

@@ -63,12 +63,9 @@ class Graph:
         if name := port.getInterfaceName():
             return self._bound(port, name, scope)
         if port.getNodeGraphString():
-            output = port.getConnectedOutput()
-            if output is None:
-                raise _core.SceneError(f"{path_of(port)}: is connected to what does not exist")
-            return self.value(output, scope)
-        node = port.getConnectedNode()
-        if node is not None:
+            return self.value(existing(port.getConnectedOutput(), port), scope)
+        if port.getNodeName():
+            node = existing(port.getConnectedNode(), port)
             return self.node_value(node, scope, port.getOutputString())
         return self.constant(port)
 
@@ -206,6 +203,13 @@ def output_of(graph: Any, name: str, node: Any) -> Any:
     found = graph.getOutput(name) if name else next(iter(graph.getOutputs()), None)
     if found is None:
         raise _core.SceneError(f"{path_of(node)}: the node has no output {name!r}")
+    return found
+
+
+def existing(found: Any, port: Any) -> Any:
+    """What a port is connected to. Raises SceneError if there is nothing."""
+    if found is None:
+        raise _core.SceneError(f"{path_of(port)}: is connected to what does not exist")
     return found
 
 

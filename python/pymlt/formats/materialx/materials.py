@@ -98,10 +98,10 @@ class Materials:
         pattern = typed(port, declared.getType())
         constant = self.textures.constant(pattern)
         if constant is None and name not in UNTEXTURED:
-            bitmap = self.textures.texture(port, where)
+            bitmap = self.textures.texture(port, where, limits=range_of(declared))
             constant = uniform(bitmap)
             if constant is None:
-                return self._clipped(bitmap, declared, where)
+                return bitmap
         if constant is None:
             self._made.warn(f"{where} is a texture, of which the mean is taken")
             data = self.textures.computed(pattern, where)["data"]
@@ -124,16 +124,6 @@ class Materials:
         if declared.getName() == "thin_film_thickness" and clipped[0] > THICKEST:
             self._made.warn(f"{where} is {clipped[0]:.3g} micrometres; nanometres need a unit")
         return clipped
-
-    def _clipped(self, bitmap: dict[str, Any], declared: Any, where: str) -> dict[str, Any]:
-        """A texture between these two; one of a file stays as it is."""
-        low, high = range_of(declared)
-        data = bitmap.get("data")
-        if data is None or (low <= data.min() and data.max() <= high):
-            return bitmap
-        reach = f"{data.min():.3g} to {data.max():.3g}"
-        self._made.warn(f"{where} goes from {reach}, and is clipped to {low:g} to {high:g}")
-        return bitmap | {"data": data.clip(low, high)}
 
     def _radiance(self, shader: Shader) -> dict[str, Any] | None:
         """That of the light which a shader emits: luminance times colour, 1 nit as 1."""

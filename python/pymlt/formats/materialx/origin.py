@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from .graph import implementation, interface, is_set, output_of
+from .graph import existing, implementation, interface, is_set, output_of
 from .scope import FILE, Scope
 
 Port = tuple[Any, Scope]  #: an input or an output, and where it stands
@@ -31,11 +31,10 @@ def step(port: Any, scope: Scope, factor: Factor) -> tuple[Node | None, Port | N
         given = scope.node.getInput(name)
         return None, (given, scope.outer) if given is not None and is_set(given) else None
     if port.getNodeGraphString():
-        output = port.getConnectedOutput()
-        return None, (output, scope) if output is not None else None
-    node = port.getConnectedNode()
-    if node is None:
+        return None, (existing(port.getConnectedOutput(), port), scope)
+    if not port.getNodeName():
         return None, None
+    node = existing(port.getConnectedNode(), port)
     if (graph := implementation(node)) is not None:
         output = output_of(graph, port.getOutputString(), node)
         return None, (output, scope.inside(node))

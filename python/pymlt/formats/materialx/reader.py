@@ -24,7 +24,7 @@ def read_materialx(path: Path, made: Imported) -> None:
 
 def read_materials(path: Path, made: Imported) -> dict[str, dict[str, Any]]:
     """The parts of shapes, a `bsdf` and perhaps an `emitter`, by the names of the materials."""
-    document = read_document(path, made)
+    document = read_document(path)
     materials = Materials(document, made)
     try:
         found = materials.read()

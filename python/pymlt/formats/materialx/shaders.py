@@ -12,7 +12,7 @@ from typing import Any
 from ... import _core
 from .document import standard_nodes
 from .graph import definition, is_set
-from .origin import Port
+from .origin import Port, origin
 from .scope import FILE
 from .values import path_of
 
@@ -88,18 +88,12 @@ class Shader:
         return {given.getInterfaceName() for given in inner}
 
     def _is_default(self, given: Any) -> bool:
-        """Whether an input says nothing: its default, or the surface's own normals or tangents.
-
-        Validation has warned of one that the shader does not have.
-        """
-        declared = definition(self.node).getActiveInput(given.getName())
-        if declared is None:
-            return True
-        output = given.getConnectedOutput() if given.getNodeGraphString() else given
-        node = output.getConnectedNode() if output is not None else None
+        """Whether an input says nothing: its default, or the surface's own normals or tangents."""
+        node = origin((given, FILE), lambda *_: None)
         if node is not None:
-            return node.getCategory() in ("normal", "tangent")
-        return given.getValue() == declared.getValue()
+            return node[0].getCategory() in ("normal", "tangent")
+        declared = definition(self.node).getActiveInput(given.getName())
+        return declared is not None and given.getValue() == declared.getValue()
 
 
 def shader_of(material: Any) -> Shader:

@@ -19,7 +19,9 @@ from .origin import Port, origin
 from .scope import Scope
 
 Pattern = Callable[[Graph], np.ndarray]  #: a value (height, width, channels)
+Limits = tuple[float, float]
 
+UNLIMITED = (-np.inf, np.inf)
 PROBES = np.array([[[0.13, 0.29], [0.71, 0.17], [0.37, 0.83], [0.91, 0.61], [0.53, 0.47]]])
 PLAIN = 1024  #: texels along a pattern that is made of no image
 MOST = 4096  #: texels along any pattern that is computed
@@ -40,23 +42,28 @@ class Textures:
         values = np.asarray(pattern(graph))
         return None if graph.uses else values.reshape(-1, values.shape[-1])[0].tolist()
 
-    def texture(self, port: Port, where: str, *, raw: bool = False) -> dict[str, Any]:
+    def texture(
+        self, port: Port, where: str, *, raw: bool = False, limits: Limits = UNLIMITED
+    ) -> dict[str, Any]:
         """A bitmap of what is not the same everywhere; `raw` are three numbers, not a colour.
 
-        Raises SceneError, which says `where`, for values that are infinite or no numbers.
+        Computed values are clipped to the limits. Raises SceneError, which says `where`, for those
+        that are still infinite, or no numbers.
         """
         found = origin(port, self.factor)
         if found is not None and found[0].getCategory() == "image":
             bitmap = self._of_file(*found, raw)
             if bitmap is not None:
                 return bitmap
-        return self.computed(lambda graph: graph.value(*port), where, raw=raw)
+        return self.computed(lambda graph: graph.value(*port), where, raw=raw, limits=limits)
 
     def factor(self, node: Any, name: str, scope: Scope) -> list[float] | None:
         """A constant input of a node."""
         return self.constant(lambda graph: graph.argument(node, name, scope))
 
-    def computed(self, pattern: Pattern, where: str, *, raw: bool = False) -> dict[str, Any]:
+    def computed(
+        self, pattern: Pattern, where: str, *, raw: bool = False, limits: Limits = UNLIMITED
+    ) -> dict[str, Any]:
         """A bitmap of an array, whose texels are computed; otherwise as `texture`."""
         graph = self._graph(PROBES)
         channels = np.asarray(pattern(graph)).shape[-1]
@@ -68,8 +75,7 @@ class Textures:
             u, v = np.meshgrid((np.arange(width) + 0.5) / width, 1 - (rows + 0.5) / height)
             uv = coordinates.applied(coordinates.inverse(affine), np.stack([u, v], axis=-1))
             data[rows] = pattern(self._graph(uv))
-        if not np.isfinite(data).all():
-            raise _core.SceneError(f"{where} has values that are infinite or no numbers")
+        data = checked_finite(data.clip(*limits), where)
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data if channels > 1 else data[..., 0]}
         if raw or channels == 1:
             bitmap["raw"] = True
@@ -116,6 +122,12 @@ class Textures:
         stretch = own[:, :2] @ coordinates.inverse(affine)[:, :2]
         width, height = np.ceil(size @ np.abs(stretch) - 1e-6)
         return (max(width, 1), max(height, 1))
+
+
+def checked_finite(data: np.ndarray, where: str) -> np.ndarray:
+    if not np.isfinite(data).all():
+        raise _core.SceneError(f"{where} has values that are infinite or no numbers")
+    return data
 
 
 def common_map(uses: list[Use]) -> np.ndarray:
