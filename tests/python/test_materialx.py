@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from materialx_files import linked, material, node, write
+from materialx_files import image, linked, material, node, write
 
 import pymlt as mlt
+from pymlt.formats.files import read_foreign
 
 # Rows of the matrix from ACEScg to linear Rec. 709, with Bradford's adaptation from D60 to D65
 # (Academy, S-2014-004 and TB-2014-004).
@@ -383,8 +384,6 @@ def test_other_extensions_and_a_missing_package_are_said(monkeypatch):
 
 
 def shown(*names, expected=0):
-    from pymlt.formats.files import read_foreign
-
     made = read_foreign(
         write("a.mtlx", *(material("open_pbr_surface", name=name) for name in names))
     )
@@ -423,3 +422,20 @@ def test_the_camera_sees_all_balls_whole(count):
     assert black.sum() == inner.sum()
     assert inner.any(axis=1).mean() > 0.65
     assert count == 1 or inner.any(axis=0).mean() > 0.8
+
+
+def test_an_image_stands_upright_with_its_middle_before_the_camera():
+    """Four quarters that glow: red above left, green above right, blue below left, black."""
+    quarters = np.zeros((2, 2, 3), np.float32)
+    quarters[0, 0, 0] = quarters[0, 1, 1] = quarters[1, 0, 2] = 1
+    mlt.write_image("quarters.exr", quarters)
+    glow = {"emission_luminance": 1.0, "emission_color": linked("color3", "i")}
+    picture = image("i", "quarters.exr", space="", filtertype="closest")
+    write("a.mtlx", picture, material("open_pbr_surface", name="m", **glow))
+    scene = read_foreign("a.mtlx").scene
+    black = {"bsdf": {"type": "diffuse", "reflectance": 0.0}}
+    lone = {"type": "scene", "m": scene["m"] | black, "camera": scene["camera"]}
+    seen = mlt.render(mlt.load_dict(lone, size=(40, 30)), "path", spp=4, seed=1)
+    for row, column, colour in ((9, 14, 0), (9, 25, 1), (20, 14, 2)):
+        assert (seen[row, column] > 0.5).tolist() == np.eye(3, dtype=bool)[colour].tolist()
+    assert seen[20, 25] == pytest.approx(0)

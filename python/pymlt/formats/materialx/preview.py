@@ -29,7 +29,7 @@ def preview(materials: dict[str, dict[str, Any]], made: Imported) -> None:
     width = APART * len(names[:MOST])
     for index, name in enumerate(names[:MOST]):
         x = APART * (index + 0.5) - width / 2
-        standing = Transform.translate([x, 1, 0]).rotate([0, 1, 0], -90).rotate([1, 0, 0], -90)
+        standing = Transform.translate([x, 1, 0]).rotate([0, 1, 0], 90).rotate([1, 0, 0], -90)
         made.add(name, {"type": "sphere", "to_world": standing.matrix, **materials[name]})
     made.add("floor", floor())
     made.add("key", softbox([-3 - width / 2, 6, 6], 2 + width / 6, (9.0, 8.7, 8.2)))

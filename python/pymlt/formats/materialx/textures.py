@@ -79,7 +79,7 @@ class Textures:
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data if channels > 1 else data[..., 0]}
         if raw or channels == 1:
             bitmap["raw"] = True
-        return bitmap | placed(affine) | wraps(graph.uses)
+        return bitmap | placed(affine) | continued(graph.uses)
 
     def _graph(self, uv: np.ndarray) -> Graph:
         return Graph(self._document, self.images, uv)
@@ -100,9 +100,7 @@ class Textures:
         bitmap: dict[str, Any] = {"type": "bitmap", "filename": str(lookup.file.path)}
         if decoding:
             bitmap["raw"] = True
-        if lookup.filtering == "closest":
-            bitmap["filter_type"] = "nearest"
-        return bitmap | placed(affine) | wraps([use])
+        return bitmap | placed(affine) | continued([use])
 
     def _size(self, uses: list[Use], affine: np.ndarray) -> tuple[int, int]:
         """The width and height at which no image of a pattern loses texels."""
@@ -147,10 +145,11 @@ def placed(affine: np.ndarray) -> dict[str, Any]:
     return {"to_uv": coordinates.to_uv(affine)}
 
 
-def wraps(uses: list[Use]) -> dict[str, Any]:
-    """How a bitmap goes on outside, if all images of a pattern go on in one way."""
-    found: dict[str, Any] = {}
+def continued(uses: list[Use]) -> dict[str, Any]:
+    """How a bitmap goes on outside and between texels, if all images of a pattern do so."""
     lookups = [use.lookup for use in uses]
+    closest = all(lookup is not None and lookup.filtering == "closest" for lookup in lookups)
+    found: dict[str, Any] = {"filter_type": "nearest"} if closest else {}
     for key, name in (("wrap_mode_u", "wrap_u"), ("wrap_mode_v", "wrap_v")):
         modes = {getattr(lookup, name, "periodic") for lookup in lookups}
         mode = WRAPS.get(modes.pop(), "repeat") if len(modes) == 1 else "repeat"
