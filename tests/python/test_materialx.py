@@ -20,6 +20,7 @@ ACESCG = [
 ]
 
 
+EXAMPLE = Path(__file__).resolve().parents[2] / "docs" / "examples" / "materials.mtlx"
 HEAD = '<materialx version="1.39"'
 
 
@@ -378,6 +379,11 @@ def test_other_extensions_and_a_missing_package_are_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "MaterialX", None)
     with pytest.raises(mlt.UsageError, match="reading MaterialX needs `pip install 'materialx"):
         mlt.load_materials("a.mtlx")
+
+
+def test_the_materials_of_the_documentation_are_read():
+    found = mlt.load_materials(EXAMPLE)
+    assert list(found) == ["Brass", "Car_Paint", "Velvet", "Soap", "Jade", "Glass"]
 
 
 # ---- the scene that shows them -------------------------------------------------------------------
