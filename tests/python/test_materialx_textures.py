@@ -371,6 +371,18 @@ def test_nodes_in_a_circle_are_refused():
         roughness(one, two, source="a")
 
 
+def test_graphs_in_a_circle_are_refused():
+    circle = "".join(
+        f'<nodegraph name="{name}"><output name="out" type="vector3" nodegraph="{other}" '
+        'output="out"/></nodegraph>'
+        for name, other in ("gh", "hg")
+    )
+    link = {"type": "vector3", "nodegraph": "g", "output": "out"}
+    for name in ("geometry_normal", "geometry_tangent"):
+        with pytest.raises(mlt.SceneError, match=r"^a\.mtlx: [gh]/out: is connected in a circle"):
+            shader(circle, **{name: link})
+
+
 def test_graphs_that_multiply_are_refused():
     """Each node is made of two of the one before: 2^20 in all."""
     text = ""

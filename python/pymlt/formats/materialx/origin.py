@@ -5,20 +5,30 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ... import _core
 from .graph import existing, implementation, interface, is_set, output_of
 from .scope import FILE, Scope
+from .values import path_of
 
 Port = tuple[Any, Scope]  #: an input or an output, and where it stands
 Node = tuple[Any, Scope]
+
+LINKS = 1000  #: from a value to the node that makes it; more go round
 
 #: The numbers of a node's input, None if they are not the same everywhere.
 Factor = Callable[[Any, str, Scope], list[float] | None]
 
 
 def origin(port: Port | None, factor: Factor) -> Node | None:
-    """The node that makes a value, None if that is a constant."""
-    node = None
+    """The node that makes a value, None if that is a constant.
+
+    Raises SceneError for links that go on without end.
+    """
+    node, links = None, 0
     while port is not None:
+        links += 1
+        if links > LINKS:
+            raise _core.SceneError(f"{path_of(port[0])}: is connected in a circle")
         node, port = step(*port, factor)
     return node
 
