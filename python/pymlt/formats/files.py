@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from .. import _core
 from ..scenes.arrays import with_bytes
-from ..scenes.kinds import EXTENSIONS, MESHES, check_kind, is_foreign
+from ..scenes.kinds import EXTENSIONS, MESHES, USD, check_kind, is_foreign
 from ..scenes.loading import load_dict
 from . import limits
 
@@ -50,6 +50,10 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
         from .mesh_file import read_mesh
 
         return read_mesh
+    if path.name.lower().endswith(USD):
+        from .usd import read_usd
+
+        return read_usd
     from .gltf import read_gltf
 
     return read_gltf
@@ -75,11 +79,11 @@ def load_foreign(
 def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str]) -> list[str]:
     """Write a scene as Mitsuba XML.
 
-    `path` names a scene of another program (.gltf, .glb, .pbrt) or a mesh (.ply, .obj, .stl), or is
-    a scene dict. Its meshes (.ply) and images are written beside `output`, with names that begin as
-    its own does. Returns what has no counterpart, one line each. Raises FileError for files that
-    cannot be read or written, SceneError for what is wrong in them, UsageError for another
-    extension or without the extra that reading needs.
+    `path` names a scene of another program (.gltf, .glb, .pbrt, .usd) or a mesh (.ply, .obj,
+    .stl), or is a scene dict. Its meshes (.ply) and images are written beside `output`, with names
+    that begin as its own does. Returns what has no counterpart, one line each. Raises FileError for
+    files that cannot be read or written, SceneError for what is wrong in them, UsageError for
+    another extension or without the extra that reading needs.
     """
     from .written import Written
     from .xml_writer import to_xml

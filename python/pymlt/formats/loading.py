@@ -40,6 +40,8 @@ def load(
         glTF 2.0; needs the extra `gltf`.
     .pbrt
         pbrt-v3 and pbrt-v4.
+    .usd, .usda, .usdc, .usdz
+        Universal Scene Description; needs the extra `usd`.
     .ply, .obj, .stl, .ply.gz, .obj.gz
         one mesh, in which y is up, with a grey material, light, and a camera that it fits.
     anything else that exists, but files of other programs (.blend, .fbx, ...)

@@ -1,0 +1,164 @@
+"""A stage as a scene dict: its prims with their shapes, cameras and lights."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from pxr import Usd, UsdGeom, UsdShade
+
+from ..frames import is_similarity, looking
+from ..imported import Imported
+from ..views import complete
+from . import cameras, meshes, primitives
+from .looks import Looks
+from .moments import Moments, matrices
+
+HIDDEN = (UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy)  #: purposes of what is not rendered
+#: A stage in which z is up, turned so that y is.
+Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+
+
+class Part(NamedTuple):
+    """A plug-in and where it is, (moments, 4, 4): in the world, or in the frame of a group."""
+
+    name: str
+    plugin: dict[str, Any]
+    placed: np.ndarray
+
+
+class Reader:
+    """One stage while it is read."""
+
+    def __init__(self, stage: Usd.Stage, made: Imported):
+        self._stage = stage
+        self._made = made
+        self._moments = Moments(stage)
+        self._time = self._moments.time
+        self._looks = Looks(made, self._time)
+        self._known: dict[tuple[Any, ...], list[Part]] = {}  #: instances, by their prototype
+        self._root = np.eye(4)[None]
+        if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
+            self._root = Z_UP[None]
+
+    def read(self) -> None:
+        for prim in self._stage.GetPseudoRoot().GetChildren():
+            for part in self._below(prim, self._root, UsdGeom.Tokens.default_):
+                to_world = self._moments.to_world(part.placed)
+                self._made.add(part.name, part.plugin | {"to_world": to_world})
+        complete(self._made)
+
+    def _below(self, prim: Usd.Prim, parent: np.ndarray, purpose: str) -> Iterator[Part]:
+        """The parts of a prim and of all below it."""
+        imageable = UsdGeom.Imageable(prim)
+        if imageable:
+            if imageable.GetVisibilityAttr().Get(self._time) == UsdGeom.Tokens.invisible:
+                return
+            if imageable.GetPurposeAttr().HasAuthoredValue():
+                purpose = imageable.GetPurposeAttr().Get()
+        local, of_the_world = self._moments.of(prim)
+        placed = (self._root if of_the_world else parent) @ local
+        if purpose not in HIDDEN:
+            for shape in self._shapes(prim):
+                yield self._part(prim, shape, placed)
+        if prim.IsA(UsdGeom.Camera):
+            yield self._camera(prim, placed)
+        if prim.IsA(UsdGeom.PointInstancer):
+            yield from self._points(UsdGeom.PointInstancer(prim), placed, purpose)
+        elif prim.IsInstance():
+            yield from self._instance(prim, placed, purpose)
+        else:
+            yield from self._children(prim, placed, purpose)
+
+    def _children(self, prim: Usd.Prim, placed: np.ndarray, purpose: str) -> Iterator[Part]:
+        for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies()):
+            yield from self._below(child, placed, purpose)
+
+    def _shapes(self, prim: Usd.Prim) -> list[dict[str, Any]]:
+        """The shapes of a prim itself."""
+        if prim.IsA(UsdGeom.Mesh):
+            return meshes.shapes(prim, self._time, self._looks, self._made)
+        shape = primitives.shape(prim, self._time, self._made)
+        if shape is not None:
+            return [shape | self._looks.of(prim).parts()]
+        if prim.IsA(UsdGeom.Gprim):
+            self._made.warn(f"prims of type {prim.GetTypeName()} are left out")
+        return []
+
+    def _part(self, prim: Usd.Prim, shape: dict[str, Any], placed: np.ndarray) -> Part:
+        """A shape where its prim is; spheres become meshes where they are stretched."""
+        if shape["type"] == "sphere" and not all(map(is_similarity, placed)):
+            mesh = primitives.ellipsoid(shape.pop("radius"), self._made)
+            shape = shape | mesh
+        placed = placed @ shape.pop("to_world", np.eye(4))
+        if "face_normals" in shape and np.linalg.det(placed[0]) < 0:
+            shape = shape | {"flip_normals": True}  # the outside stays the outside
+        return Part(prim.GetName(), shape, placed)
+
+    def _camera(self, prim: Usd.Prim, placed: np.ndarray) -> Part:
+        """A camera; how large it is says how large the image of an orthographic one is."""
+        sensor = cameras.camera(prim, self._time, self._made)
+        frames = np.array([looking(matrix) for matrix in placed])
+        if sensor["type"] == "orthographic":
+            half = sensor.pop("half_width")
+            sizes = np.linalg.norm(placed[:, :3, 0], axis=1) * half
+            frames = frames @ np.array([np.diag([size, size, 1, 1]) for size in sizes])
+        return Part(prim.GetName(), sensor, frames)
+
+    def _instance(self, prim: Usd.Prim, placed: np.ndarray, purpose: str) -> Iterator[Part]:
+        """What is below an instance: where there are several of one prototype, they share it."""
+        prototype = prim.GetPrototype()
+        material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+        key = (prototype.GetPath(), material.GetPath(), purpose)
+        if key not in self._known:
+            parts = list(self._children(prim, np.eye(4)[None], purpose))
+            shared = len(prototype.GetInstances()) > 1
+            self._known[key] = self._grouped(prim.GetName(), parts) if shared else parts
+        for part in self._known[key]:
+            yield part._replace(placed=placed @ part.placed)
+
+    def _points(
+        self, instancer: UsdGeom.PointInstancer, placed: np.ndarray, purpose: str
+    ) -> Iterator[Part]:
+        """The copies of a point instancer."""
+        prim, stage = instancer.GetPrim(), self._stage
+        targets = instancer.GetPrototypesRel().GetForwardedTargets()
+        numbers = np.array(instancer.GetProtoIndicesAttr().Get(self._time) or [], dtype=int)
+        places = matrices(
+            instancer.ComputeInstanceTransformsAtTime(
+                self._time, self._time, instancer.ExcludeProtoXform, instancer.IgnoreMask
+            )
+        )
+        shown = np.array(instancer.ComputeMaskAtTime(self._time) or [True] * len(numbers), bool)
+        for number, target in enumerate(targets):
+            chosen = places[(numbers == number) & shown] if len(places) else places
+            if not len(chosen):
+                continue
+            parts = list(self._below(stage.GetPrimAtPath(target), np.eye(4)[None], purpose))
+            if len(chosen) > 1:
+                parts = self._grouped(target.name, parts)
+            for place in chosen:
+                for part in parts:
+                    name = f"{prim.GetName()}-{part.name}"
+                    yield Part(name, part.plugin, placed @ place @ part.placed)
+
+    def _grouped(self, name: str, parts: list[Part]) -> list[Part]:
+        """Parts of which all that can be in a group are one instance."""
+        members = [part for part in parts if is_member(part)]
+        if not members:
+            return parts
+        group = {
+            f"part-{number}": part.plugin | {"to_world": part.placed[0]}
+            for number, part in enumerate(members)
+        }
+        known = self._made.add(f"{name}-group", {"type": "shapegroup", **group})
+        instance = {"type": "instance", "group": {"type": "ref", "id": known}}
+        others = [part for part in parts if not is_member(part)]
+        return [*others, Part(name, instance, np.eye(4)[None])]
+
+
+def is_member(part: Part) -> bool:
+    """Whether it can be in a group: a shape that neither emits nor moves there."""
+    is_shape = part.plugin["type"] in ("mesh", "sphere", "cube", "rectangle")
+    return is_shape and "emitter" not in part.plugin and len(part.placed) == 1
