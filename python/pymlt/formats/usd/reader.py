@@ -6,16 +6,17 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from pxr import Usd, UsdGeom, UsdShade
+from pxr import Usd, UsdGeom, UsdLux, UsdShade
 
 from ..frames import is_similarity, looking
 from ..imported import Imported
 from ..views import complete
-from . import cameras, meshes, primitives
+from . import cameras, lights, meshes, primitives
 from .looks import Looks
 from .moments import Moments, matrices
 
 HIDDEN = (UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy)  #: purposes of what is not rendered
+STILL = ("constant", "directional", "envmap")
 #: A stage in which z is up, turned so that y is.
 Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 
@@ -45,9 +46,16 @@ class Reader:
     def read(self) -> None:
         for prim in self._stage.GetPseudoRoot().GetChildren():
             for part in self._below(prim, self._root, UsdGeom.Tokens.default_):
-                to_world = self._moments.to_world(part.placed)
-                self._made.add(part.name, part.plugin | {"to_world": to_world})
+                self._add(part)
         complete(self._made)
+
+    def _add(self, part: Part) -> None:
+        kind, to_world = part.plugin["type"], self._moments.to_world(part.placed)
+        if kind in STILL and isinstance(to_world, dict):
+            self._made.warn("lights at infinity do not move: they are as the shutter opens")
+            to_world = part.placed[0]
+        placed = {} if kind == "constant" else {"to_world": to_world}
+        self._made.add(part.name, part.plugin | placed)
 
     def _below(self, prim: Usd.Prim, parent: np.ndarray, purpose: str) -> Iterator[Part]:
         """The parts of a prim and of all below it."""
@@ -60,10 +68,15 @@ class Reader:
         local, of_the_world = self._moments.of(prim)
         placed = (self._root if of_the_world else parent) @ local
         if purpose not in HIDDEN:
-            for shape in self._shapes(prim):
+            shapes = self._shapes(prim)
+            if prim.HasAPI(UsdLux.LightAPI):
+                lights.make_glow(shapes, prim, self._time, placed[0], self._made)
+            for shape in shapes:
                 yield self._part(prim, shape, placed)
         if prim.IsA(UsdGeom.Camera):
             yield self._camera(prim, placed)
+        if prim.HasAPI(UsdLux.LightAPI) and not prim.IsA(UsdGeom.Gprim):
+            yield from self._light(prim, placed)
         if prim.IsA(UsdGeom.PointInstancer):
             yield from self._points(UsdGeom.PointInstancer(prim), placed, purpose)
         elif prim.IsInstance():
@@ -105,6 +118,12 @@ class Reader:
             sizes = np.linalg.norm(placed[:, :3, 0], axis=1) * half
             frames = frames @ np.array([np.diag([size, size, 1, 1]) for size in sizes])
         return Part(prim.GetName(), sensor, frames)
+
+    def _light(self, prim: Usd.Prim, placed: np.ndarray) -> Iterator[Part]:
+        """A light, if it is one that is read."""
+        light = lights.light(prim, self._time, placed[0], self._made)
+        if light is not None:
+            yield self._part(prim, light, placed)
 
     def _instance(self, prim: Usd.Prim, placed: np.ndarray, purpose: str) -> Iterator[Part]:
         """What is below an instance: where there are several of one prototype, they share it."""

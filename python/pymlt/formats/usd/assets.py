@@ -1,0 +1,82 @@
+"""Files that a stage names, also those within a package (.usdz)."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pxr import Ar, Sdf, Usd
+
+from ... import _core
+from ...images import read_image
+from ...pictures.tonemapping import split_alpha
+from ..imported import Imported
+from ..limits import MEMORY, check_pixels
+from ..missing import ABSENT, is_missing
+
+
+def asset(attribute: Usd.Attribute, time: Usd.TimeCode, made: Imported) -> dict[str, Any] | None:
+    """The file of an attribute as the parameter `filename`, or `data` if it is in a package.
+
+    None if there is none. A missing one is noted.
+    """
+    given = attribute.Get(time) if attribute else None
+    if given is None or not given.path:
+        return None
+    if "<UDIM>" in given.path:
+        made.warn("images in tiles (<UDIM>) are left out")
+        return None
+    found = given.resolvedPath or anchored(attribute, given.path)
+    if Ar.IsPackageRelativePath(found):
+        return {"data": packaged(found)}
+    if is_missing(found):
+        made.missing.setdefault(f"{found}: {ABSENT}", "")
+    return {"filename": found}
+
+
+def anchored(attribute: Usd.Attribute, path: str) -> str:
+    """Where a file would be that is named in the layer of an attribute."""
+    layers = [spec.layer for spec in attribute.GetPropertyStack()]
+    found: str = Sdf.ComputeAssetPathRelativeToLayer(layers[0], path) if layers else path
+    return found
+
+
+def packaged(path: str) -> bytes:
+    """A file within a package. Raises FileError if it is too large or cannot be read."""
+    opened = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
+    content = opened.GetBuffer() if opened and opened.GetSize() <= MEMORY else None
+    if content is None:
+        raise _core.FileError(f"{path}: cannot be read")
+    return bytes(content)
+
+
+def pixels(file: dict[str, Any]) -> np.ndarray | None:
+    """The linear pixels of a file, (height, width, channels); None if it is missing.
+
+    Raises FileError for images that cannot be read or are too large to be changed.
+    """
+    if "data" in file:
+        image = _core.decode_image(file["data"], "an image in a package")
+    elif is_missing(file["filename"]):
+        return None
+    else:
+        image = read_image(Path(file["filename"]))
+    check_pixels(image, file.get("filename", "an image in a package"))
+    return image.reshape(*image.shape[:2], -1)
+
+
+def rgb_pixels(file: dict[str, Any]) -> np.ndarray | None:
+    """As `pixels`, of three colours without alpha."""
+    image = pixels(file)
+    if image is None:
+        return None
+    colours, _ = split_alpha(image)
+    return np.broadcast_to(colours, (*colours.shape[:2], 3))
+
+
+def extension(file: dict[str, Any]) -> str:
+    """What the name of a file ends in; nothing is known of one in a package."""
+    found = re.search(r"\.\w+$", file.get("filename", ""))
+    return found[0].lower() if found else ""
