@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,9 @@ from ...pictures.tonemapping import split_alpha
 from ..imported import Imported
 from ..limits import MEMORY, check_pixels
 from ..missing import ABSENT, is_missing
+from ..pbrt.images import BYTES
+
+LINEAR = (b"\x76\x2f\x31\x01", b"#?")  #: how EXR and HDR files begin
 
 
 def asset(attribute: Usd.Attribute, time: Usd.TimeCode, made: Imported) -> dict[str, Any] | None:
@@ -76,7 +78,8 @@ def rgb_pixels(file: dict[str, Any]) -> np.ndarray | None:
     return np.broadcast_to(colours, (*colours.shape[:2], 3))
 
 
-def extension(file: dict[str, Any]) -> str:
-    """What the name of a file ends in; nothing is known of one in a package."""
-    found = re.search(r"\.\w+$", file.get("filename", ""))
-    return found[0].lower() if found else ""
+def is_encoded(file: dict[str, Any]) -> bool:
+    """Whether a file has a format of bytes, in which colours are encoded as sRGB."""
+    if "data" in file:
+        return not file["data"].startswith(LINEAR)
+    return Path(file["filename"]).suffix.lower() in BYTES

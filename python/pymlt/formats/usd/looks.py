@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from pxr import Usd, UsdGeom
+from pxr import Usd, UsdGeom, UsdShade
 
 from ..imported import Imported, rgb
+from .materials import surface
 from .primvars import flattened
+from .textures import VERTEX_COLOURS
 
 GREY = 0.18  #: of what has no colour, as UsdPreviewSurface has it
-VERTEX_COLOURS = {"type": "mesh_attribute", "name": "vertex_color"}
 
 
 class Look(NamedTuple):
@@ -33,10 +34,26 @@ class Looks:
     def __init__(self, made: Imported, time: Usd.TimeCode):
         self._made = made
         self._time = time
+        self._known: dict[Any, Look] = {}
 
     def of(self, prim: Usd.Prim) -> Look:
         """How a prim, or a subset of a mesh, looks."""
-        return painted(prim, self._time, self._made)
+        binding = UsdShade.MaterialBindingAPI(prim)
+        material, _ = binding.ComputeBoundMaterial(UsdShade.Tokens.full)
+        if not material:
+            return painted(prim, self._time, self._made)
+        if material.GetPath() not in self._known:
+            self._known[material.GetPath()] = self._look(material)
+        return self._known[material.GetPath()]
+
+    def _look(self, material: UsdShade.Material) -> Look:
+        """A material as a reference to its BSDF."""
+        found = surface(material, self._time, self._made)
+        if found is None:
+            return Look(matte(GREY))
+        known = self._made.add(material.GetPrim().GetName(), found.whole())
+        emitter, bsdf = found.emitter(), {"type": "ref", "id": known}
+        return Look(bsdf, emitter, found.uv, found.of_vertices)
 
 
 def painted(prim: Usd.Prim, time: Usd.TimeCode, made: Imported) -> Look:

@@ -1,0 +1,132 @@
+"""Shaders that read images: UsdUVTexture, and `image` and `tiledimage` of MaterialX."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...pictures.tonemapping import encode_srgb, split_alpha
+from ..imported import Imported
+from .assets import asset, is_encoded, pixels
+from .networks import Node
+
+WRAP = {"clamp": "clamp", "mirror": "mirror", "black": "zero"}
+CHANNELS = {"r": 0, "g": 1, "b": 2}
+MATERIALX = ("ND_image_", "ND_tiledimage_")
+#: A v that points up as one that points down, as that of our meshes does, and back.
+OVER = np.array([[1.0, 0, 0, 0], [0, -1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]])
+ANGLES = ("rotation", "scale", "translation")
+
+
+class Image(NamedTuple):
+    """What a shader makes of an image: scale x + bias, of some channels."""
+
+    file: dict[str, Any]  #: the parameter `filename` or `data`
+    output: str  #: rgb, or the name of a channel
+    scale: np.ndarray  #: (4,)
+    bias: np.ndarray  #: (4,)
+    raw: bool  #: whether the values are taken as they are stored
+    settings: dict[str, Any]  #: other parameters of a bitmap
+    uv: str  #: the primvar of its texture coordinates
+
+    def bitmap(self) -> dict[str, Any]:
+        """The image as it is, as a texture."""
+        found = {"type": "bitmap", **self.file, **self.settings}
+        return found | ({"raw": True} if self.raw else {})
+
+    def made_of(self, values: np.ndarray) -> dict[str, Any]:
+        """A texture of other values, of as many pixels."""
+        data = np.ascontiguousarray(values, np.float32)
+        return {"type": "bitmap", "data": data, "raw": True, **self.settings}
+
+    def rgba(self) -> np.ndarray | None:
+        """The values that the shader gives, (height, width, 4); None if the file is missing."""
+        image = pixels(self.file)
+        if image is None:
+            return None
+        colours, alpha = split_alpha(image)
+        # An image of greys is no colour, and is not encoded as one.
+        if (self.raw or colours.shape[2] == 1) and is_encoded(self.file):
+            colours = encode_srgb(colours)
+        values = np.ones((*image.shape[:2], 4))
+        values[..., :3] = colours
+        values[..., 3:] = alpha if alpha.size else 1
+        return values * self.scale + self.bias
+
+    def channel(self) -> np.ndarray | None:
+        """The values of the channel that is used, (height, width); of a colour, the mean."""
+        values = self.rgba()
+        if values is None:
+            return None
+        if self.output == "a":
+            return values[..., 3]
+        if self.output in CHANNELS:
+            return values[..., CHANNELS[self.output]]
+        return values[..., :3].mean(axis=2)
+
+
+def image(node: Node, made: Imported) -> Image | None:
+    """The image that a node reads; None, with a warning, if it is of no such kind or has none."""
+    if node.id == "UsdUVTexture":
+        return uv_texture(node, made)
+    if node.id.startswith(MATERIALX):
+        return materialx_image(node, made)
+    made.warn(f"shaders of the kind {node.id!r} are left out")
+    return None
+
+
+def uv_texture(node: Node, made: Imported) -> Image | None:
+    attribute = node.attribute("file")
+    file = attribute and asset(attribute, node.time, made)
+    if not file:
+        return None
+    settings: dict[str, Any] = {}
+    for axis, name in (("u", "wrapS"), ("v", "wrapT")):
+        if wrap := WRAP.get(str(node.value(name, ""))):
+            settings[f"wrap_mode_{axis}"] = wrap
+    uv, transform = coordinates(node.source("st"), made)
+    if transform is not None:
+        settings["to_uv"] = OVER @ transform @ OVER
+    scale, bias = (np.array(node.numbers(n, [d] * 4)) for n, d in (("scale", 1.0), ("bias", 0.0)))
+    raw = str(node.value("sourceColorSpace", "auto")) == "raw"
+    return Image(file, node.output, scale, bias, raw, settings, uv)
+
+
+def coordinates(node: Node | None, made: Imported) -> tuple[str, np.ndarray | None]:
+    """The primvar of texture coordinates, and what is done to them, (4, 4), if anything is."""
+    transform = None
+    while node is not None and node.id == "UsdTransform2d":
+        angle, scale, offset = (
+            node.value("rotation", 0.0),
+            node.numbers("scale", [1, 1]),
+            node.numbers("translation", [0, 0]),
+        )
+        step = np.eye(4)
+        cos, sin = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+        step[:2, :2] = np.array([[cos, -sin], [sin, cos]]) * scale
+        step[:2, 3] = offset
+        transform = step if transform is None else transform @ step
+        node = node.source("in")
+    if node is None:
+        return "st", transform
+    if node.id != "UsdPrimvarReader_float2":
+        made.warn(f"texture coordinates of the kind {node.id!r} are left out")
+        return "st", transform
+    return str(node.value("varname", "st")), transform
+
+
+def materialx_image(node: Node, made: Imported) -> Image | None:
+    """Of its texture coordinates, only how often a tiled image is repeated is read."""
+    attribute = node.attribute("file")
+    file = attribute and asset(attribute, node.time, made)
+    if not file:
+        return None
+    if node.source("texcoord") is not None:
+        made.warn("texture coordinates of MaterialX are left out; the first ones are taken")
+    step = np.diag([*node.numbers("uvtiling", [1, 1]), 1, 1])
+    step[:2, 3] = -np.array(node.numbers("uvoffset", [0, 0]))
+    settings = {} if (step == np.eye(4)).all() else {"to_uv": OVER @ step @ OVER}
+    raw = "srgb" not in attribute.GetColorSpace().lower()
+    output = "rgb" if "_color" in node.id or "_vector" in node.id else "r"
+    return Image(file, output, np.ones(4), np.zeros(4), raw, settings, "st")

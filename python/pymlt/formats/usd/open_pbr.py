@@ -1,0 +1,84 @@
+"""The shader open_pbr_surface of MaterialX, whose inputs `openpbr` has by the same names."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..imported import Imported, rgb
+from .surface import Surface
+from .textures import Textures
+
+#: Inputs that are colours, and what they are if a file does not say.
+COLOURS = {
+    "base_color": 0.8,
+    "specular_color": 1.0,
+    "transmission_color": 1.0,
+    "subsurface_color": 0.8,
+    "coat_color": 1.0,
+    "fuzz_color": 1.0,
+}
+#: Inputs that are numbers, and may be textures.
+NUMBERS = (
+    "base_weight",
+    "base_diffuse_roughness",
+    "base_metalness",
+    "specular_weight",
+    "specular_roughness",
+    "specular_roughness_anisotropy",
+    "transmission_weight",
+    "subsurface_weight",
+    "coat_weight",
+    "coat_roughness",
+    "coat_roughness_anisotropy",
+    "fuzz_weight",
+    "fuzz_roughness",
+    "thin_film_weight",
+)
+#: Inputs that are one number for the whole surface.
+REALS = (
+    "specular_ior",
+    "transmission_depth",
+    "transmission_scatter_anisotropy",
+    "transmission_dispersion_scale",
+    "transmission_dispersion_abbe_number",
+    "subsurface_radius",
+    "subsurface_scatter_anisotropy",
+    "coat_ior",
+    "coat_darkening",
+    "thin_film_thickness",
+    "thin_film_ior",
+)
+TRIPLES = ("transmission_scatter", "subsurface_radius_scale")
+
+
+def open_pbr_surface(textures: Textures, made: Imported) -> Surface:
+    """The BSDF of the inputs that a file gives, with its opacity, normals and emission."""
+    bsdf: dict[str, Any] = {"type": "openpbr"}
+    for name, default in COLOURS.items():
+        if textures.is_given(name):
+            bsdf[name] = textures.colour(name, [default] * 3)
+    bsdf |= {name: textures.number(name, 0.0) for name in NUMBERS if textures.is_given(name)}
+    for name in REALS:
+        if textures.is_given(name) and (value := textures.value(name, None)) is not None:
+            bsdf[name] = float(value)
+    for name in TRIPLES:
+        if textures.is_given(name) and (value := textures.value(name, None)) is not None:
+            bsdf[name] = rgb(value)
+    if textures.value("geometry_thin_walled", False):
+        bsdf["geometry_thin_walled"] = True
+    for name in ("geometry_coat_normal", "geometry_tangent", "geometry_coat_tangent"):
+        if textures.is_textured(name):
+            made.warn(f"{name} is left out")
+    opacity = textures.number("geometry_opacity", 1.0)
+    return Surface(bsdf, opacity, textures.normals("geometry_normal"), glow(textures))
+
+
+def glow(textures: Textures) -> dict[str, Any] | None:
+    """Luminance times colour: a nit is one unit of radiance."""
+    luminance = float(textures.value("emission_luminance", 0.0))
+    if luminance == 0:
+        return None
+    colour = textures.colour("emission_color", [1.0] * 3)
+    if colour["type"] == "rgb":
+        return rgb([luminance * value for value in colour["value"]])
+    return {"type": "scale", "scale": luminance, "texture": colour}

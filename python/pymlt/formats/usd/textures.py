@@ -1,0 +1,121 @@
+"""The inputs of materials as numbers, colours and textures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..imported import Imported, rgb
+from .images import Image, image
+from .networks import Node
+
+VERTEX_COLOURS = {"type": "mesh_attribute", "name": "vertex_color"}
+
+
+class Textures:
+    """The inputs of one material."""
+
+    def __init__(self, node: Node, made: Imported):
+        self._node = node
+        self._made = made
+        self.uv: str | None = None  #: the primvar that its textures use
+        self.of_vertices = False  #: whether it uses the colours of vertices
+
+    def value(self, name: str, default: Any) -> Any:
+        """An input that cannot be a texture, which is warned of."""
+        if self._node.source(name) is not None:
+            self._made.warn(f"textures of {name!r} are left out")
+        return self._node.value(name, default)
+
+    def is_textured(self, name: str) -> bool:
+        return self._node.source(name) is not None
+
+    def is_given(self, name: str) -> bool:
+        """Whether a file says anything of an input."""
+        given = self._node.shader.GetInput(name)
+        return bool(given) and (given.Get() is not None or self.is_textured(name))
+
+    def number(self, name: str, default: float) -> float | dict[str, Any]:
+        """A number, or a texture of numbers."""
+        found = self._image(name)
+        if found is None:
+            return float(self._fallback(name, default))
+        values = found.channel()
+        return found.bitmap() if values is None else found.made_of(values)
+
+    def opacity(self, name: str, threshold: float) -> float | dict[str, Any]:
+        """As a number; with a threshold it is 0 or 1."""
+        found = self._image(name)
+        values: Any = self._fallback(name, 1.0) if found is None else found.channel()
+        if values is None:
+            return 1.0
+        if threshold > 0:
+            values = values >= threshold
+        return float(values) if found is None else found.made_of(values)
+
+    def colour(self, name: str, default: Any) -> dict[str, Any]:
+        """A colour, a texture of colours, or the colours of vertices."""
+        source = self._node.source(name)
+        if source is not None and reads_colours(source):
+            self.of_vertices = True
+            return VERTEX_COLOURS
+        found = self._image(name)
+        if found is None:
+            return rgb(self._fallback(name, default, 3)[:3])
+        plain = found.output == "rgb" and not found.bias[:3].any() and (found.scale[:3] >= 0).all()
+        if not plain:
+            values = found.rgba() if found.output == "rgb" else found.channel()
+            return found.bitmap() if values is None else found.made_of(values[..., :3])
+        if (found.scale[:3] == 1).all():
+            return found.bitmap()
+        return {"type": "scale", "scale": rgb(found.scale[:3]), "texture": found.bitmap()}
+
+    def normals(self, name: str) -> dict[str, Any] | None:
+        """A texture of normals, from 0 to 1, if there is one."""
+        source = self._node.source(name)
+        while source is not None and source.id.startswith("ND_normalmap"):
+            source = source.source("in")
+        found = None if source is None else self._read(source)
+        if found is None:
+            return None
+        found = found._replace(raw=True)
+        if source is not None and source.id != "UsdUVTexture":
+            return found.bitmap()
+        if (found.scale[:3] == 2).all() and (found.bias[:3] == -1).all():
+            return found.bitmap()
+        values = found.rgba()
+        return found.bitmap() if values is None else found.made_of((values[..., :3] + 1) / 2)
+
+    def _image(self, name: str) -> Image | None:
+        source = self._node.source(name)
+        return None if source is None else self._read(source)
+
+    def _read(self, source: Node) -> Image | None:
+        found = image(source, self._made)
+        if found is not None:
+            if self.uv not in (None, found.uv):
+                self._made.warn("second texture coordinates of a material are left out")
+            self.uv = self.uv or found.uv
+        return found
+
+    def _fallback(self, name: str, default: Any, count: int = 1) -> Any:
+        """The value of an input without an image: its own, or that of a texture without a file."""
+        source = self._node.source(name)
+        if source is None:
+            return self._node.value(name, default)
+        if source.id != "UsdUVTexture":
+            return default
+        given = source.numbers("fallback", [0, 0, 0, 1])
+        scale, bias = source.numbers("scale", [1] * 4), source.numbers("bias", [0] * 4)
+        values = np.array(given) * scale + bias
+        channel = {"r": 0, "g": 1, "b": 2, "a": 3}.get(source.output)
+        if count == 3:
+            return values[:3] if channel is None else np.full(3, values[channel])
+        return values[:3].mean() if channel is None else values[channel]
+
+
+def reads_colours(node: Node) -> bool:
+    """Whether a shader gives the colours that a mesh has itself."""
+    is_reader = node.id.startswith("UsdPrimvarReader_float3")
+    return is_reader and node.value("varname", "") == "displayColor"
