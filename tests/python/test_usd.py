@@ -109,6 +109,20 @@ def PointInstancer "outer" {{
     assert places == [[1, 10], [2, 10], [1, 20], [2, 20]]
 
 
+def test_what_is_scaled_to_nothing_is_left_out():
+    flat = 'double3 xformOp:scale = (0, 0, 0)\nuniform token[] xformOpOrder = ["xformOp:scale"]'
+    made = converted(mesh(flat) + mesh(name="there"))
+    assert "square" not in made.scene
+    assert "there" in made.scene
+    assert "what is scaled to nothing is left out" in made.warnings
+
+
+def test_what_contradicts_itself_is_named():
+    text = 'def Cone "pile" { double height = 0\n double radius = 0\n}'
+    with pytest.raises(mlt.SceneError, match=r"^a\.usda: /pile: contradicts itself: Floating"):
+        converted(text)
+
+
 def test_a_camera_sees_what_usd_says_it_does():
     text = """
 def Camera "lens" {
@@ -201,3 +215,74 @@ def test_the_extra_is_named_where_it_lacks(monkeypatch):
     monkeypatch.setitem(sys.modules, "pxr.Usd", None)
     with pytest.raises(mlt.UsageError, match="reading USD needs `pip install 'usd-core"):
         mlt.load("a.usda")
+
+
+def test_the_settings_of_a_stage_say_which_camera_and_size():
+    text = """
+def Camera "other" {
+    float horizontalAperture = 20
+    float verticalAperture = 10
+    float focalLength = 20
+}
+def RenderSettings "settings" {
+    rel camera = </other>
+    uniform int2 resolution = (SIZE)
+}
+"""
+    head = 'renderSettingsPrimPath = "/settings"'
+    scene = converted(text.replace("SIZE", "300, 100"), head).scene
+    assert next(plugin for plugin in scene.values() if plugin != "scene") is scene["other"]
+    assert (scene["other"]["film"]["width"], scene["other"]["film"]["height"]) == (300, 100)
+    # The aperture is 2 wide and 1 high before a focal length of 2: it becomes wider.
+    assert scene["other"]["fov_axis"] == "y"
+    assert scene["other"]["fov"] == pytest.approx(np.degrees(2 * np.arctan(0.25)))
+    scene = converted(text.replace("SIZE", "100, 100"), head).scene
+    assert scene["other"]["fov_axis"] == "x"
+    assert scene["other"]["fov"] == pytest.approx(np.degrees(2 * np.arctan(0.5)))
+
+
+def test_skeletons_pose_what_they_hold():
+    skin = mesh(
+        """
+    rel skel:skeleton = </root/bones>
+    int[] primvars:skel:jointIndices = [0, 0, 0, 0] (interpolation = "vertex"\nelementSize = 1)
+    float[] primvars:skel:jointWeights = [1, 1, 1, 1] (interpolation = "vertex"\nelementSize = 1)
+""",
+        head='(prepend apiSchemas = ["SkelBindingAPI"])',
+    )
+    unit = "( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1) )"
+    text = f"""
+def SkelRoot "root" {{
+    def Skeleton "bones" (prepend apiSchemas = ["SkelBindingAPI"]) {{
+        uniform token[] joints = ["a"]
+        uniform matrix4d[] bindTransforms = [{unit}]
+        uniform matrix4d[] restTransforms = [{unit}]
+        rel skel:animationSource = </root/bones/walk>
+        def SkelAnimation "walk" {{
+            uniform token[] joints = ["a"]
+            float3[] translations.timeSamples = {{ 0: [(0, 0, 0)], 10: [(10, 0, 0)] }}
+            quatf[] rotations = [(1, 0, 0, 0)]
+            half3[] scales = [(1, 1, 1)]
+        }}
+    }}
+    {skin}
+}}
+"""
+    square = converted(text, "startTimeCode = 4\nendTimeCode = 8").scene["square"]
+    np.testing.assert_allclose(square["vertices"].mean(axis=0), [4, 0, 0], atol=1e-5)
+    assert Path("a.usda").read_text().count("translations") == 1
+
+
+def test_a_package_holds_its_images():
+    from pxr import UsdUtils
+
+    image = np.full((4, 8, 3), 0.25, np.float32)
+    mlt.write_image("sky.exr", image)
+    sky = 'def DomeLight "sky" {\n asset inputs:texture:file = @sky.exr@\n}\n'
+    written(sky)
+    assert UsdUtils.CreateNewUsdzPackage("a.usda", "b.usdz")
+    Path("sky.exr").unlink()
+    scene = mlt.load("b.usdz", size=(8, 6))
+    assert mlt.render(scene, "path", spp=64, seed=1).mean() == pytest.approx(0.25, rel=0.03)
+    assert mlt.convert("b.usdz", "c.xml") == []
+    assert mlt.load("c.xml").info()["emitters"] == 1

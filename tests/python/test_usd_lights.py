@@ -224,3 +224,9 @@ def test_images_that_are_missing_are_named():
         converted(text + tinted)
     absent = "there is no such file"
     assert str(error.value) == f"a.usda: no/sky.exr: {absent}; b.exr: {absent}"
+
+
+def test_a_temperature_that_is_none_is_refused():
+    hot = "bool inputs:enableColorTemperature = 1\nfloat inputs:colorTemperature = nan"
+    with pytest.raises(mlt.SceneError, match=r"a\.usda: /lamp: colorTemperature is nan, not in"):
+        converted(lamp("SphereLight", hot))

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from pxr import Usd, UsdGeom, UsdLux
 
+from ... import _core
 from ..areas import triangle_areas
 from ..imported import Imported, rgb
 from .assets import asset, rgb_pixels
@@ -53,11 +54,13 @@ def warn_of_parts(prim: Usd.Prim, made: Imported) -> None:
 
 
 def strength(prim: Usd.Prim, time: Usd.TimeCode) -> np.ndarray:
-    """Radiance in R, G and B, before it is normalised."""
+    """Radiance in R, G and B, before it is normalised. Raises SceneError for no temperature."""
     api = UsdLux.LightAPI(prim)
     colour = np.array(api.GetColorAttr().Get(time), dtype=float)
     if api.GetEnableColorTemperatureAttr().Get(time):
-        kelvin = api.GetColorTemperatureAttr().Get(time)
+        kelvin = float(api.GetColorTemperatureAttr().Get(time))
+        if not math.isfinite(kelvin):  # for which USD crashes
+            raise _core.SceneError(f"{prim.GetPath()}: colorTemperature is {kelvin}, not in kelvin")
         colour *= np.array(UsdLux.BlackbodyTemperatureAsRgb(kelvin))
     exposure = float(api.GetExposureAttr().Get(time))
     return colour * float(api.GetIntensityAttr().Get(time)) * 2.0**exposure

@@ -63,4 +63,5 @@ def shutter(camera: UsdGeom.Camera, time: Usd.TimeCode) -> tuple[float, float]:
 
 def matrices(given: Any) -> np.ndarray:
     """Matrices of USD, which act on rows, as ours, which act on columns: (count, 4, 4)."""
-    return np.array([np.array(matrix) for matrix in given], dtype=float).transpose(0, 2, 1)
+    rows = [np.array(matrix) for matrix in given]
+    return np.array(rows, dtype=float).reshape(-1, 4, 4).transpose(0, 2, 1)

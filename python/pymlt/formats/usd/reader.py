@@ -6,14 +6,17 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from pxr import Usd, UsdGeom, UsdLux, UsdShade
+from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
+from ... import _core
+from .. import limits
 from ..frames import is_similarity, looking
 from ..imported import Imported
 from ..views import complete
-from . import cameras, lights, meshes, primitives
+from . import cameras, lights, meshes, primitives, skeletons
 from .looks import Looks
 from .moments import Moments, matrices
+from .settings import Settings
 
 HIDDEN = (UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy)  #: purposes of what is not rendered
 STILL = ("constant", "directional", "envmap")
@@ -27,6 +30,7 @@ class Part(NamedTuple):
     name: str
     plugin: dict[str, Any]
     placed: np.ndarray
+    source: Sdf.Path | None = None  #: the prim of a camera
 
 
 class Reader:
@@ -37,6 +41,7 @@ class Reader:
         self._made = made
         self._moments = Moments(stage)
         self._time = self._moments.time
+        self._settings = Settings(stage)
         self._looks = Looks(made, self._time)
         self._known: dict[tuple[Any, ...], list[Part]] = {}  #: instances, by their prototype
         self._root = np.eye(4)[None]
@@ -44,9 +49,11 @@ class Reader:
             self._root = Z_UP[None]
 
     def read(self) -> None:
+        skeletons.pose(self._stage, self._time, self._made)
         for prim in self._stage.GetPseudoRoot().GetChildren():
             for part in self._below(prim, self._root, UsdGeom.Tokens.default_):
                 self._add(part)
+        self._settings.order(self._made)
         complete(self._made)
 
     def _add(self, part: Part) -> None:
@@ -55,7 +62,8 @@ class Reader:
             self._made.warn("lights at infinity do not move: they are as the shutter opens")
             to_world = part.placed[0]
         placed = {} if kind == "constant" else {"to_world": to_world}
-        self._made.add(part.name, part.plugin | placed)
+        name = self._made.add(part.name, part.plugin | placed)
+        self._settings.note(part.source, name)
 
     def _below(self, prim: Usd.Prim, parent: np.ndarray, purpose: str) -> Iterator[Part]:
         """The parts of a prim and of all below it."""
@@ -67,22 +75,39 @@ class Reader:
                 purpose = imageable.GetPurposeAttr().Get()
         local, of_the_world = self._moments.of(prim)
         placed = (self._root if of_the_world else parent) @ local
+        if not is_regular(placed).all():
+            self._made.warn("what is scaled to nothing is left out")
+            return
         if purpose not in HIDDEN:
-            shapes = self._shapes(prim)
-            if prim.HasAPI(UsdLux.LightAPI):
-                lights.make_glow(shapes, prim, self._time, placed[0], self._made)
-            for shape in shapes:
-                yield self._part(prim, shape, placed)
-        if prim.IsA(UsdGeom.Camera):
-            yield self._camera(prim, placed)
-        if prim.HasAPI(UsdLux.LightAPI) and not prim.IsA(UsdGeom.Gprim):
-            yield from self._light(prim, placed)
+            yield from self._own(prim, placed)
         if prim.IsA(UsdGeom.PointInstancer):
             yield from self._points(UsdGeom.PointInstancer(prim), placed, purpose)
         elif prim.IsInstance():
             yield from self._instance(prim, placed, purpose)
         else:
             yield from self._children(prim, placed, purpose)
+
+    def _own(self, prim: Usd.Prim, placed: np.ndarray) -> list[Part]:
+        """The parts of a prim itself. Raises SceneError, which names it, if it is not possible."""
+        found = []
+        try:
+            shapes = self._shapes(prim)
+            if prim.HasAPI(UsdLux.LightAPI) and prim.IsA(UsdGeom.Gprim):
+                lights.make_glow(shapes, prim, self._time, placed[0], self._made)
+            elif prim.HasAPI(UsdLux.LightAPI):
+                light = lights.light(prim, self._time, placed[0], self._made)
+                shapes = [light] if light else []
+            found = [self._part(prim, shape, placed) for shape in shapes]
+            if prim.IsA(UsdGeom.Camera):
+                found.append(self._camera(prim, placed))
+        except _core.Error:
+            raise
+        except limits.CONTRADICTIONS as error:
+            kind = type(error).__name__
+            raise _core.SceneError(
+                f"{prim.GetPath()}: contradicts itself: {kind}: {error!s:.200}"
+            ) from None
+        return found
 
     def _children(self, prim: Usd.Prim, placed: np.ndarray, purpose: str) -> Iterator[Part]:
         for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies()):
@@ -111,19 +136,13 @@ class Reader:
 
     def _camera(self, prim: Usd.Prim, placed: np.ndarray) -> Part:
         """A camera; how large it is says how large the image of an orthographic one is."""
-        sensor = cameras.camera(prim, self._time, self._made)
+        sensor = self._settings.sized(cameras.camera(prim, self._time, self._made))
         frames = np.array([looking(matrix) for matrix in placed])
         if sensor["type"] == "orthographic":
             half = sensor.pop("half_width")
             sizes = np.linalg.norm(placed[:, :3, 0], axis=1) * half
             frames = frames @ np.array([np.diag([size, size, 1, 1]) for size in sizes])
-        return Part(prim.GetName(), sensor, frames)
-
-    def _light(self, prim: Usd.Prim, placed: np.ndarray) -> Iterator[Part]:
-        """A light, if it is one that is read."""
-        light = lights.light(prim, self._time, placed[0], self._made)
-        if light is not None:
-            yield self._part(prim, light, placed)
+        return Part(prim.GetName(), sensor, frames, prim.GetPath())
 
     def _instance(self, prim: Usd.Prim, placed: np.ndarray, purpose: str) -> Iterator[Part]:
         """What is below an instance: where there are several of one prototype, they share it."""
@@ -151,7 +170,8 @@ class Reader:
         )
         shown = np.array(instancer.ComputeMaskAtTime(self._time) or [True] * len(numbers), bool)
         for number, target in enumerate(targets):
-            chosen = places[(numbers == number) & shown] if len(places) else places
+            fit = (numbers == number) & shown & is_regular(places)
+            chosen = places[fit]
             if not len(chosen):
                 continue
             parts = list(self._below(stage.GetPrimAtPath(target), np.eye(4)[None], purpose))
@@ -175,6 +195,12 @@ class Reader:
         instance = {"type": "instance", "group": {"type": "ref", "id": known}}
         others = [part for part in parts if not is_member(part)]
         return [*others, Part(name, instance, np.eye(4)[None])]
+
+
+def is_regular(placed: np.ndarray) -> np.ndarray:
+    """Which of several transforms leave a volume its size, or at least some."""
+    found: np.ndarray = np.linalg.det(placed[:, :3, :3]) != 0
+    return found
 
 
 def is_member(part: Part) -> bool:
