@@ -286,3 +286,27 @@ def test_a_package_holds_its_images():
     assert mlt.render(scene, "path", spp=64, seed=1).mean() == pytest.approx(0.25, rel=0.03)
     assert mlt.convert("b.usdz", "c.xml") == []
     assert mlt.load("c.xml").info()["emitters"] == 1
+
+
+def test_copies_of_copies_are_not_too_many(monkeypatch):
+    from pymlt.formats.usd import reader
+
+    zeros, places = ", ".join(["0"] * 10), ", ".join(["(0, 0, 0)"] * 10)
+    inner = "".join(
+        f"""
+def PointInstancer "level{level}" {{
+    rel prototypes = [</library/level{level - 1}>]
+    int[] protoIndices = [{zeros}]
+    point3f[] positions = [{places}]
+}}
+"""
+        for level in range(1, 5)
+    )
+    library = (
+        f'def Xform "library" {{ token visibility = "invisible"\n {mesh(name="level0")} {inner} }}'
+    )
+    top = '\ndef "top" (references = </library/level4>) {}\n'
+    assert len(of_type(converted(library + top), "instance")) == 10**4
+    monkeypatch.setattr(reader, "COPIES", 11000)
+    with pytest.raises(mlt.SceneError, match=r"^a\.usda: there are more than 11000 copies"):
+        converted(library + top)

@@ -19,6 +19,7 @@ from .moments import Moments, matrices
 from .settings import Settings
 
 HIDDEN = (UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy)  #: purposes of what is not rendered
+COPIES = limits.MEMORY // limits.PART  #: which fill the memory that a scene may take
 STILL = ("constant", "directional", "envmap")
 #: A stage in which z is up, turned so that y is.
 Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
@@ -44,6 +45,7 @@ class Reader:
         self._settings = Settings(stage)
         self._looks = Looks(made, self._time)
         self._known: dict[tuple[Any, ...], list[Part]] = {}  #: instances, by their prototype
+        self._copies = 0
         self._root = np.eye(4)[None]
         if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
             self._root = Z_UP[None]
@@ -154,7 +156,7 @@ class Reader:
             shared = len(prototype.GetInstances()) > 1
             self._known[key] = self._grouped(prim.GetName(), parts) if shared else parts
         for part in self._known[key]:
-            yield part._replace(placed=placed @ part.placed)
+            yield self._copy(part, prim.GetName(), placed)
 
     def _points(
         self, instancer: UsdGeom.PointInstancer, placed: np.ndarray, purpose: str
@@ -179,8 +181,14 @@ class Reader:
                 parts = self._grouped(target.name, parts)
             for place in chosen:
                 for part in parts:
-                    name = f"{prim.GetName()}-{part.name}"
-                    yield Part(name, part.plugin, placed @ place @ part.placed)
+                    yield self._copy(part, f"{prim.GetName()}-{part.name}", placed @ place)
+
+    def _copy(self, part: Part, name: str, placed: np.ndarray) -> Part:
+        """A part of a copy. Raises SceneError for more than a scene may hold, also if nested."""
+        self._copies += 1
+        if self._copies > COPIES:
+            raise _core.SceneError(f"there are more than {COPIES} copies of prims")
+        return part._replace(name=name, placed=placed @ part.placed)
 
     def _grouped(self, name: str, parts: list[Part]) -> list[Part]:
         """Parts of which all that can be in a group are one instance."""
