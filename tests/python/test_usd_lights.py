@@ -230,3 +230,13 @@ def test_a_temperature_that_is_none_is_refused():
     hot = "bool inputs:enableColorTemperature = 1\nfloat inputs:colorTemperature = nan"
     with pytest.raises(mlt.SceneError, match=r"a\.usda: /lamp: colorTemperature is nan, not in"):
         converted(lamp("SphereLight", hot))
+
+
+def test_a_dome_of_one_pixel_is_even_and_a_dark_one_is_none():
+    mlt.write_image("sky.exr", np.full((1, 1, 3), [1, 2, 4], np.float32))
+    sky = "asset inputs:texture:file = @sky.exr@\nfloat inputs:intensity = 0.5"
+    even = light("DomeLight", sky)
+    assert (even["type"], even["radiance"]["value"]) == ("constant", [0.5, 1, 2])
+    made = converted(lamp("DomeLight", sky.replace("0.5", "0")) + lamp("DistantLight", name="sun"))
+    assert "lamp" not in made.scene
+    assert "sun" in made.scene

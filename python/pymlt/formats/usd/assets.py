@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from ..limits import MEMORY, check_pixels
 from ..missing import ABSENT, is_missing
 from ..pbrt.images import BYTES
 
+SMALL = 2**16  #: bytes
 LINEAR = (b"\x76\x2f\x31\x01", b"#?")  #: how EXR and HDR files begin
 
 
@@ -76,6 +78,13 @@ def rgb_pixels(file: dict[str, Any]) -> np.ndarray | None:
         return None
     colours, _ = split_alpha(image)
     return np.broadcast_to(colours, (*colours.shape[:2], 3))
+
+
+def is_small(file: dict[str, Any]) -> bool:
+    """Whether an image is quickly read, if it is there."""
+    if "data" in file:
+        return len(file["data"]) < SMALL
+    return not is_missing(file["filename"]) and os.stat(file["filename"]).st_size < SMALL
 
 
 def is_encoded(file: dict[str, Any]) -> bool:

@@ -14,7 +14,7 @@ from pxr import Usd, UsdGeom, UsdLux
 from ... import _core
 from ..areas import triangle_areas
 from ..imported import Imported, rgb
-from .assets import asset, rgb_pixels
+from .assets import asset, is_small, rgb_pixels
 
 TURNED = np.diag([-1.0, 1, -1, 1])  #: shapes shine along +z
 SPHERE_TO_POINT = 1 / 4  #: the intensity of a point over the radiance x area of a sphere
@@ -27,13 +27,15 @@ ROWS_DOWN = np.array([[1.0, 0, 0, 0], [0, -1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]]
 def light(
     prim: Usd.Prim, time: Usd.TimeCode, to_world: np.ndarray, made: Imported
 ) -> dict[str, Any] | None:
-    """A light with a `to_world` in the frame of its prim; None, with a warning, for unknown ones.
+    """A light with a `to_world` in the frame of its prim; None for those that are dark or unknown.
 
     `to_world` places the prim, for what is normalised is so by its size in the world.
     """
     warn_of_parts(prim, made)
     for kind, make in LIGHTS.items():
         if prim.IsA(kind):
+            if not strength(prim, time).any():
+                return None
             return make(kind(prim), time, to_world, made)
     made.warn(f"lights of type {prim.GetTypeName()} are left out")
     return None
@@ -191,11 +193,13 @@ def dome(given: Any, time: Usd.TimeCode, to_world: np.ndarray, made: Imported) -
     layout = given.GetTextureFormatAttr().Get(time)
     if layout not in (UsdLux.Tokens.automatic, UsdLux.Tokens.latlong):
         made.warn(f"dome lights of the format {layout!r} are taken as 'latlong'")
-    if colour.min() == colour.max():
+    grey = colour.min() == colour.max()
+    image = None if grey and not is_small(file) else rgb_pixels(file)
+    if image is not None and (image.shape[0] < 2 or image.shape[1] < 3):
+        # So few pixels, which some programs write, are one colour.
+        return {"type": "constant", "radiance": rgb(image.mean(axis=(0, 1)) * colour)}
+    if image is None or grey:
         return {"type": "envmap", "scale": float(colour[0]), **file, **placed}
-    image = rgb_pixels(file)
-    if image is None:
-        return {"type": "envmap", **file}
     return {"type": "envmap", "data": (image * colour).astype(np.float32), **placed}
 
 
