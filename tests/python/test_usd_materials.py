@@ -338,3 +338,44 @@ def test_missing_images_are_named():
         "no.png",
         "neither.png",
     }
+
+
+def test_texture_coordinates_of_materialx():
+    """As Blender writes them: scale, rotate about z, move."""
+    mlt.write_image("a.png", PIXELS)
+
+    def node(name: str, kind: str, source: str, more: str = "", width: str = "float3") -> str:
+        return f"""
+    def Shader "{name}" {{
+        uniform token info:id = "ND_{kind}"
+        {source}
+        {more}
+        {width} outputs:out
+    }}
+"""
+
+    def after(name: str, place: str = "in") -> str:
+        return f"float3 inputs:{place}.connect = </paint/{name}.outputs:out>"
+
+    others = node("uv", "texcoord_vector2", "")
+    others += node("wide", "convert_vector2_vector3", after("uv"))
+    others += node(
+        "scaled", "multiply_vector3", after("wide", "in1"), "float3 inputs:in2 = (2, 3, 1)"
+    )
+    turn = "float inputs:amount = 90\nfloat3 inputs:axis = (0, 0, 1)"
+    others += node("turned", "rotate3d_vector3", after("scaled"), turn)
+    others += node(
+        "moved", "add_vector3", after("turned", "in1"), "float3 inputs:in2 = (0.5, 0, 0)"
+    )
+    image = "asset inputs:file = @a.png@\n" + after("moved", "texcoord")
+    others += node("picture", "image_color4", image)
+    others += node("image", "convert_color4_color3", after("picture"))
+    inputs = "color3f inputs:base_color.connect = </paint/image.outputs:out>"
+    made = painted(inputs, others, OPEN_PBR)
+    to_uv = made.scene["paint"]["bsdf"]["base_color"]["to_uv"]
+    # The corner (1, 1) becomes (2, 3), (-3, 2), (-2.5, 2); rows are counted from above here.
+    np.testing.assert_allclose((to_uv @ [1, 0, 0, 1])[:2], [-2.5, -1], atol=1e-6)
+    assert made.warnings == ["there is no light; an even sky and a sun are added"]
+    skew = others.replace("(0, 0, 1)", "(0, 1, 0)")
+    said = "texture coordinates of the kind 'ND_rotate3d_vector3' are left out"
+    assert said in painted(inputs, skew, OPEN_PBR).warnings

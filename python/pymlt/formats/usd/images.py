@@ -9,14 +9,13 @@ import numpy as np
 from ...pictures.tonemapping import encode_srgb, split_alpha
 from ..imported import Imported
 from .assets import asset, is_encoded, pixels
+from .coordinates import OVER, to_uv
 from .networks import Node
 
-WRAP = {"clamp": "clamp", "mirror": "mirror", "black": "zero"}
+WRAP = {"clamp": "clamp", "mirror": "mirror", "black": "zero", "constant": "zero"}
 CHANNELS = {"r": 0, "g": 1, "b": 2}
 MATERIALX = ("ND_image_", "ND_tiledimage_")
-#: A v that points up as one that points down, as that of our meshes does, and back.
-OVER = np.array([[1.0, 0, 0, 0], [0, -1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]])
-ANGLES = ("rotation", "scale", "translation")
+PASSED = ("ND_convert_", "ND_dot_", "ND_normalmap")  #: shaders that change nothing here
 
 
 class Image(NamedTuple):
@@ -68,6 +67,8 @@ class Image(NamedTuple):
 
 def image(node: Node, made: Imported) -> Image | None:
     """The image that a node reads; None, with a warning, if it is of no such kind or has none."""
+    while node.id.startswith(PASSED) and (source := node.source("in")):
+        node = source
     if node.id == "UsdUVTexture":
         return uv_texture(node, made)
     if node.id.startswith(MATERIALX):
@@ -81,52 +82,32 @@ def uv_texture(node: Node, made: Imported) -> Image | None:
     file = attribute and asset(attribute, node.time, made)
     if not file:
         return None
-    settings: dict[str, Any] = {}
-    for axis, name in (("u", "wrapS"), ("v", "wrapT")):
-        if wrap := WRAP.get(str(node.value(name, ""))):
-            settings[f"wrap_mode_{axis}"] = wrap
-    uv, transform = coordinates(node.source("st"), made)
-    if transform is not None:
-        settings["to_uv"] = OVER @ transform @ OVER
+    settings = wrapping(node, "wrapS", "wrapT")
+    uv, transform = to_uv(node.source("st"), made)
     scale, bias = (np.array(node.numbers(n, [d] * 4)) for n, d in (("scale", 1.0), ("bias", 0.0)))
     raw = str(node.value("sourceColorSpace", "auto")) == "raw"
-    return Image(file, node.output, scale, bias, raw, settings, uv)
+    return Image(file, node.output, scale, bias, raw, settings | transform, uv)
 
 
-def coordinates(node: Node | None, made: Imported) -> tuple[str, np.ndarray | None]:
-    """The primvar of texture coordinates, and what is done to them, (4, 4), if anything is."""
-    transform = None
-    while node is not None and node.id == "UsdTransform2d":
-        angle, scale, offset = (
-            node.value("rotation", 0.0),
-            node.numbers("scale", [1, 1]),
-            node.numbers("translation", [0, 0]),
-        )
-        step = np.eye(4)
-        cos, sin = np.cos(np.radians(angle)), np.sin(np.radians(angle))
-        step[:2, :2] = np.array([[cos, -sin], [sin, cos]]) * scale
-        step[:2, 3] = offset
-        transform = step if transform is None else transform @ step
-        node = node.source("in")
-    if node is None:
-        return "st", transform
-    if node.id != "UsdPrimvarReader_float2":
-        made.warn(f"texture coordinates of the kind {node.id!r} are left out")
-        return "st", transform
-    return str(node.value("varname", "st")), transform
+def wrapping(node: Node, *names: str) -> dict[str, str]:
+    """What is outside of an image, if not its repetition."""
+    modes = zip(("wrap_mode_u", "wrap_mode_v"), names, strict=True)
+    found = {mode: WRAP.get(str(node.value(name, ""))) for mode, name in modes}
+    return {mode: wrap for mode, wrap in found.items() if wrap}
 
 
 def materialx_image(node: Node, made: Imported) -> Image | None:
-    """Of its texture coordinates, only how often a tiled image is repeated is read."""
+    """An image, which a tiled one repeats and moves."""
     attribute = node.attribute("file")
     file = attribute and asset(attribute, node.time, made)
-    if not file:
+    if not attribute or not file:
         return None
-    if node.source("texcoord") is not None:
-        made.warn("texture coordinates of MaterialX are left out; the first ones are taken")
-    step = np.diag([*node.numbers("uvtiling", [1, 1]), 1, 1])
-    step[:2, 3] = -np.array(node.numbers("uvoffset", [0, 0]))
-    settings = {} if (step == np.eye(4)).all() else {"to_uv": OVER @ step @ OVER}
+    uv, transform = to_uv(node.source("texcoord"), made)
+    tiles = np.diag([*node.numbers("uvtiling", [1, 1]), 1, 1])
+    tiles[:2, 3] = -np.array(node.numbers("uvoffset", [0, 0]))
+    if (tiles != np.eye(4)).any():
+        transform = {"to_uv": OVER @ tiles @ OVER @ transform.get("to_uv", np.eye(4))}
+    settings = wrapping(node, "uaddressmode", "vaddressmode") | transform
     raw = "srgb" not in attribute.GetColorSpace().lower()
     output = "rgb" if "_color" in node.id or "_vector" in node.id else "r"
-    return Image(file, output, np.ones(4), np.zeros(4), raw, settings, "st")
+    return Image(file, output, np.ones(4), np.zeros(4), raw, settings, uv)

@@ -66,9 +66,11 @@ def open_pbr_surface(textures: Textures, made: Imported) -> Surface:
             bsdf[name] = rgb(value)
     if textures.value("geometry_thin_walled", False):
         bsdf["geometry_thin_walled"] = True
-    for name in ("geometry_coat_normal", "geometry_tangent", "geometry_coat_tangent"):
-        if textures.is_textured(name):
-            made.warn(f"{name} is left out")
+    if textures.is_textured("geometry_coat_normal"):
+        made.warn("geometry_coat_normal is left out")
+    anisotropic = [name for name in bsdf if name.endswith("_anisotropy") and bsdf[name] != 0]
+    if anisotropic and textures.is_textured("geometry_tangent"):
+        made.warn("geometry_tangent is left out: tangents follow the texture coordinates")
     opacity = textures.number("geometry_opacity", 1.0)
     return Surface(bsdf, opacity, textures.normals("geometry_normal"), glow(textures))
 

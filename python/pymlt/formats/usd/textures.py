@@ -74,13 +74,11 @@ class Textures:
     def normals(self, name: str) -> dict[str, Any] | None:
         """A texture of normals, from 0 to 1, if there is one."""
         source = self._node.source(name)
-        while source is not None and source.id.startswith("ND_normalmap"):
-            source = source.source("in")
-        found = None if source is None else self._read(source)
-        if found is None:
+        found = None if source is None or is_plain(source) else self._read(source)
+        if source is None or found is None:
             return None
         found = found._replace(raw=True)
-        if source is not None and source.id != "UsdUVTexture":
+        if source.id != "UsdUVTexture":
             return found.bitmap()
         if (found.scale[:3] == 2).all() and (found.bias[:3] == -1).all():
             return found.bitmap()
@@ -119,3 +117,10 @@ def reads_colours(node: Node) -> bool:
     """Whether a shader gives the colours that a mesh has itself."""
     is_reader = node.id.startswith("UsdPrimvarReader_float3")
     return is_reader and node.value("varname", "") == "displayColor"
+
+
+def is_plain(node: Node) -> bool:
+    """Whether normals are those of the mesh itself."""
+    while node.id.startswith("ND_normalize") and (source := node.source("in")):
+        node = source
+    return node.id.startswith("ND_normal_")
