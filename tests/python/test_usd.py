@@ -121,6 +121,8 @@ def test_what_contradicts_itself_is_named():
     text = 'def Cone "pile" { double height = 0\n double radius = 0\n}'
     with pytest.raises(mlt.SceneError, match=r"^a\.usda: /pile: contradicts itself: Floating"):
         converted(text)
+    with pytest.raises(mlt.SceneError, match=r"^a\.usda: /square: its transform has numbers that"):
+        converted(mesh(moved(0, float("inf"), 0)))
 
 
 def test_a_camera_sees_what_usd_says_it_does():

@@ -63,7 +63,7 @@ def painted(prim: Usd.Prim, time: Usd.TimeCode, made: Imported) -> Look:
     api = UsdGeom.PrimvarsAPI(prim)
     found = api.FindPrimvarWithInheritance("displayColor")
     opacity = api.FindPrimvarWithInheritance("displayOpacity")
-    if opacity and opacity.HasValue() and (flattened(opacity, time) != 1).any():
+    if opacity and opacity.HasValue() and not np.all(flattened(opacity, time) == 1):
         made.warn("displayOpacity is left out: what has no material is opaque")
     colours = flattened(found, time) if found and found.HasValue() else None
     varying = colours is not None and found.GetInterpolation() != UsdGeom.Tokens.constant

@@ -68,7 +68,7 @@ def materials(mesh: UsdGeom.Mesh, faces: int, looks: Looks) -> list[tuple[Look, 
     if not subsets:
         return [(looks.of(mesh.GetPrim()), None)]
     indices = [np.array(subset.GetIndicesAttr().Get() or [], dtype=np.int64) for subset in subsets]
-    parts = [
+    parts: list[tuple[Look, np.ndarray | None]] = [
         (looks.of(subset.GetPrim()), chosen)
         for subset, chosen in zip(subsets, indices, strict=True)
     ]

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from pxr import Usd, UsdGeom
 
+from ... import _core
+
 COUNT = 5  #: of moments of an open shutter: between two of them, half a turn is too much
 
 
@@ -34,7 +36,10 @@ class Moments:
         return min(opened), max(closed)
 
     def of(self, prim: Usd.Prim) -> tuple[np.ndarray, bool]:
-        """The transforms of a prim, (moments, 4, 4), and whether they place it in the world."""
+        """The transforms of a prim, (moments, 4, 4), and whether they place it in the world.
+
+        Raises SceneError for infinite ones.
+        """
         xform = UsdGeom.Xformable(prim)
         if not xform:
             return np.eye(4)[None], False
@@ -42,7 +47,10 @@ class Moments:
             times = [self.time]
         else:
             times = [Usd.TimeCode(self._frame + offset) for offset in self.offsets]
-        return matrices(map(xform.GetLocalTransformation, times)), xform.GetResetXformStack()
+        found = matrices(map(xform.GetLocalTransformation, times))
+        if not np.isfinite(found).all():
+            raise _core.SceneError(f"{prim.GetPath()}: its transform has numbers that are none")
+        return found, xform.GetResetXformStack()
 
     def to_world(self, placed: np.ndarray) -> Any:
         """One matrix for what rests, else an animation."""

@@ -93,6 +93,12 @@ def neighbours(given: Polygons) -> tuple[np.ndarray, np.ndarray]:
     return start + (number + 1) % count, start + (number - 1) % count
 
 
+def summed(rows: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
+    """The sum of the rows that go to each place, (count, width)."""
+    columns = [np.bincount(place, weights=column, minlength=count) for column in rows.T]
+    return np.stack(columns, 1)
+
+
 def smooth_normals(given: Polygons) -> np.ndarray:
     """Normals at points, (points, 3): the mean of those of the faces, by their areas."""
     if not len(given.corners):
@@ -101,7 +107,6 @@ def smooth_normals(given: Polygons) -> np.ndarray:
     after, _ = neighbours(given)
     spokes = given.points[given.corners] - origins
     areas = np.add.reduceat(np.cross(spokes, spokes[after]), given.starts, axis=0)
-    normals = np.zeros_like(given.points)
-    np.add.at(normals, given.corners, np.repeat(areas, given.counts, axis=0))
+    normals = summed(np.repeat(areas, given.counts, axis=0), given.corners, len(given.points))
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1), [0.0, 0, 1])

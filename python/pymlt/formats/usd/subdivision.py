@@ -8,11 +8,11 @@ import numpy as np
 from pxr import Usd, UsdGeom
 
 from ... import _core
-from .polygons import Polygons, neighbours
+from .polygons import Polygons, neighbours, summed
 from .primvars import Values
 
 LEVELS = 3  #: how often a surface is divided, unless that makes it too large
-QUADS = 2**21  #: of one surface, beyond which it is not divided again
+CORNERS = 2**19  #: of one surface, beyond which it is not divided again
 SHARP = 10.0  #: the sharpness of what stays sharp at every level
 
 
@@ -45,7 +45,7 @@ def divided(
     }
     crease = creases(mesh, given, time)
     for _ in range(LEVELS):
-        if len(given.corners) > QUADS:
+        if len(given.corners) > CORNERS:
             break
         values = {
             name: value and Values(refined_values(value.rows, given), True)
@@ -183,12 +183,6 @@ def moved_points(
     fixed = crease.of_points.clip(0, 1)[:, None]
     stay = np.where(lines > 0, fixed, 1)
     return stay * points + (1 - stay) * found_points
-
-
-def summed(rows: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
-    """The sum of the rows that go to each place, (count, width)."""
-    columns = [np.bincount(place, weights=column, minlength=count) for column in rows.T]
-    return np.stack(columns, 1)
 
 
 def softer(found: Edges, crease: Creases, points: int, every: int) -> Creases:
