@@ -116,6 +116,23 @@ def test_scale_and_bias():
     assert grey["raw"]
 
 
+def test_a_colour_of_one_channel_is_a_grey_image():
+    mlt.write_image("a.exr", np.tile(PIXELS, (1, 4, 1)))
+    found = surface(DIFFUSE.replace("outputs:rgb", "outputs:r"), texture())["base_color"]
+    np.testing.assert_allclose(found["data"], np.tile(PIXELS[..., 0], (1, 4)), rtol=1e-3)
+
+
+def test_values_that_no_surface_has_are_cut_off():
+    made = painted("color3f inputs:diffuseColor = (2, 0.5, -1)\nfloat inputs:roughness = 3")
+    found = made.scene["paint"]["bsdf"]
+    assert found["base_color"]["value"] == [1, 0.5, 0]
+    assert found["specular_roughness"] == 1
+    assert "values of 'diffuseColor' outside of 0 to 1 are cut off" in made.warnings
+    bright = painted("color3f inputs:emissiveColor = (-1, 5, 0)")
+    assert bright.scene["square"]["emitter"]["radiance"]["value"] == [0, 5, 0]
+    assert "values of 'emissiveColor' below 0 are cut off" in bright.warnings
+
+
 def test_the_colour_space_of_images():
     mlt.write_image("a.png", PIXELS)
     encoded = mlt.read_image("a.png")
@@ -269,7 +286,7 @@ def test_open_pbr_has_the_same_names():
     color3f inputs:base_color = (0.1, 0.2, 0.3)
     float inputs:specular_ior = 1.25
     float inputs:coat_weight = 0.75
-    color3f inputs:transmission_scatter = (1, 2, 3)
+    color3f inputs:transmission_scatter = (1, 0.5, 0.25)
     float inputs:emission_luminance = 10
     color3f inputs:emission_color = (1, 0.5, 0)
     float inputs:geometry_opacity = 0.5
@@ -287,7 +304,7 @@ def test_open_pbr_has_the_same_names():
         "base_color": {"type": "rgb"},
         "specular_ior": 1.25,
         "coat_weight": 0.75,
-        "transmission_scatter": {"type": "rgb", "value": [1, 2, 3]},
+        "transmission_scatter": {"type": "rgb", "value": [1, 0.5, 0.25]},
         "geometry_thin_walled": True,
     }
     assert made.scene["square"]["emitter"]["radiance"]["value"] == [10, 5, 0]

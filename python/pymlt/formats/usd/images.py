@@ -53,6 +53,11 @@ class Image(NamedTuple):
         values[..., 3:] = alpha if alpha.size else 1
         return values * self.scale + self.bias
 
+    def colours(self) -> np.ndarray | None:
+        """As `rgba`, without the last channel."""
+        values = self.rgba()
+        return None if values is None else values[..., :3]
+
     def channel(self) -> np.ndarray | None:
         """The values of the channel that is used, (height, width); of a colour, the mean."""
         values = self.rgba()

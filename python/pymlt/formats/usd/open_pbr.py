@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ..imported import Imported, rgb
@@ -18,22 +19,22 @@ COLOURS = {
     "fuzz_color": 1.0,
 }
 #: Inputs that are numbers, and may be textures.
-NUMBERS = (
-    "base_weight",
-    "base_diffuse_roughness",
-    "base_metalness",
-    "specular_weight",
-    "specular_roughness",
-    "specular_roughness_anisotropy",
-    "transmission_weight",
-    "subsurface_weight",
-    "coat_weight",
-    "coat_roughness",
-    "coat_roughness_anisotropy",
-    "fuzz_weight",
-    "fuzz_roughness",
-    "thin_film_weight",
-)
+NUMBERS = {
+    "base_weight": 1.0,
+    "base_diffuse_roughness": 0.0,
+    "base_metalness": 0.0,
+    "specular_weight": 1.0,
+    "specular_roughness": 0.3,
+    "specular_roughness_anisotropy": 0.0,
+    "transmission_weight": 0.0,
+    "subsurface_weight": 0.0,
+    "coat_weight": 0.0,
+    "coat_roughness": 0.0,
+    "coat_roughness_anisotropy": 0.0,
+    "fuzz_weight": 0.0,
+    "fuzz_roughness": 0.5,
+    "thin_film_weight": 0.0,
+}
 #: Inputs that are one number for the whole surface.
 REALS = (
     "specular_ior",
@@ -48,7 +49,6 @@ REALS = (
     "thin_film_thickness",
     "thin_film_ior",
 )
-TRIPLES = ("transmission_scatter", "subsurface_radius_scale")
 
 
 def open_pbr_surface(textures: Textures, made: Imported) -> Surface:
@@ -57,13 +57,18 @@ def open_pbr_surface(textures: Textures, made: Imported) -> Surface:
     for name, default in COLOURS.items():
         if textures.is_given(name):
             bsdf[name] = textures.colour(name, [default] * 3)
-    bsdf |= {name: textures.number(name, 0.0) for name in NUMBERS if textures.is_given(name)}
+    for name, number in NUMBERS.items():
+        if textures.is_given(name):
+            bsdf[name] = textures.number(name, number)
     for name in REALS:
         if textures.is_given(name) and (value := textures.value(name, None)) is not None:
             bsdf[name] = float(value)
-    for name in TRIPLES:
-        if textures.is_given(name) and (value := textures.value(name, None)) is not None:
-            bsdf[name] = rgb(value)
+    scatter = textures.value("transmission_scatter", None)
+    if scatter is not None:
+        bsdf["transmission_scatter"] = rgb(textures.cut("transmission_scatter", scatter))
+    scale = textures.value("subsurface_radius_scale", None)
+    if scale is not None:
+        bsdf["subsurface_radius_scale"] = rgb(scale)
     if textures.value("geometry_thin_walled", False):
         bsdf["geometry_thin_walled"] = True
     if textures.is_textured("geometry_coat_normal"):
@@ -80,7 +85,7 @@ def glow(textures: Textures) -> dict[str, Any] | None:
     luminance = float(textures.value("emission_luminance", 0.0))
     if luminance == 0:
         return None
-    colour = textures.colour("emission_color", [1.0] * 3)
+    colour = textures.colour("emission_color", [1.0] * 3, math.inf)
     if colour["type"] == "rgb":
         return rgb([luminance * value for value in colour["value"]])
     return {"type": "scale", "scale": luminance, "texture": colour}

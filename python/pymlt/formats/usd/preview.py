@@ -79,6 +79,6 @@ def specular(textures: Textures, made: Imported) -> dict[str, Any]:
 
 def glow(textures: Textures) -> dict[str, Any] | None:
     """The radiance of the surface; None if it is dark."""
-    found = textures.colour("emissiveColor", [0.0] * 3)
+    found = textures.colour("emissiveColor", [0.0] * 3, math.inf)
     dark = found["type"] == "rgb" and not any(found["value"])
     return None if dark else found

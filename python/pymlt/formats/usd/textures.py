@@ -37,12 +37,12 @@ class Textures:
         return bool(given) and (given.Get() is not None or self.is_textured(name))
 
     def number(self, name: str, default: float) -> float | dict[str, Any]:
-        """A number, or a texture of numbers."""
+        """A number from 0 to 1, or a texture of such numbers."""
         found = self._image(name)
         if found is None:
-            return float(self._fallback(name, default))
+            return float(self.cut(name, self._fallback(name, default)))
         values = found.channel()
-        return found.bitmap() if values is None else found.made_of(values)
+        return found.bitmap() if values is None else found.made_of(self.cut(name, values))
 
     def opacity(self, name: str, threshold: float) -> float | dict[str, Any]:
         """As a number; with a threshold it is 0 or 1."""
@@ -50,26 +50,34 @@ class Textures:
         values: Any = self._fallback(name, 1.0) if found is None else found.channel()
         if values is None:
             return 1.0
-        if threshold > 0:
-            values = values >= threshold
+        values = values >= threshold if threshold > 0 else self.cut(name, values)
         return float(values) if found is None else found.made_of(values)
 
-    def colour(self, name: str, default: Any) -> dict[str, Any]:
-        """A colour, a texture of colours, or the colours of vertices."""
+    def colour(self, name: str, default: Any, most: float = 1.0) -> dict[str, Any]:
+        """A colour from 0 to `most`, a texture of colours, or the colours of vertices."""
         source = self._node.source(name)
         if source is not None and reads_colours(source):
             self.of_vertices = True
             return VERTEX_COLOURS
         found = self._image(name)
         if found is None:
-            return rgb(self._fallback(name, default, 3)[:3])
-        plain = found.output == "rgb" and not found.bias[:3].any() and (found.scale[:3] >= 0).all()
-        if not plain:
-            values = found.rgba() if found.output == "rgb" else found.channel()
-            return found.bitmap() if values is None else found.made_of(values[..., :3])
+            return rgb(self.cut(name, self._fallback(name, default, 3)[:3], most))
+        if found.output != "rgb" or found.bias[:3].any() or (found.scale[:3] < 0).any():
+            values = found.colours() if found.output == "rgb" else found.channel()
+            cut = None if values is None else self.cut(name, values, most)
+            return found.bitmap() if cut is None else found.made_of(cut)
         if (found.scale[:3] == 1).all():
             return found.bitmap()
         return {"type": "scale", "scale": rgb(found.scale[:3]), "texture": found.bitmap()}
+
+    def cut(self, name: str, values: Any, most: float = 1.0) -> np.ndarray:
+        """Values from 0 to `most`, with a warning if they were others."""
+        given = np.asarray(values, dtype=float)
+        found = given.clip(0, most)
+        if (found != given).any():
+            bounds = f"outside of 0 to {most:g}" if np.isfinite(most) else "below 0"
+            self._made.warn(f"values of {name!r} {bounds} are cut off")
+        return found
 
     def normals(self, name: str) -> dict[str, Any] | None:
         """A texture of normals, from 0 to 1, if there is one."""
@@ -82,8 +90,8 @@ class Textures:
             return found.bitmap()
         if (found.scale[:3] == 2).all() and (found.bias[:3] == -1).all():
             return found.bitmap()
-        values = found.rgba()
-        return found.bitmap() if values is None else found.made_of((values[..., :3] + 1) / 2)
+        values = found.colours()
+        return found.bitmap() if values is None else found.made_of((values + 1) / 2)
 
     def _image(self, name: str) -> Image | None:
         source = self._node.source(name)
