@@ -1,5 +1,6 @@
 """Stages of USD: which prims are there, where they are, and their copies."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -195,6 +196,20 @@ def test_what_is_no_usd_file_is_refused_in_one_line(name, capfd):
         mlt.load(name)
     assert "\n" not in str(error.value)
     assert capfd.readouterr().err == ""
+
+
+def test_files_that_are_no_files_are_refused():
+    os.mkfifo("pipe.usda")
+    Path("folder.usdc").mkdir()
+    with open("large.usda", "wb") as file:
+        file.truncate(2**40)
+    for name, said in (
+        ("pipe.usda", "it is not a regular file"),
+        ("folder.usdc", "it is a folder"),
+        ("large.usda", "it has more than 268435456 bytes"),
+    ):
+        with pytest.raises(mlt.FileError, match=f"^{name}: cannot read it: {said}"):
+            mlt.load(name)
 
 
 WRONG = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 from ... import _core
 from ..._extras import import_extra
 from ..imported import Imported
-from ..limits import MEMORY, TEXT
+from ..limits import MEMORY, TEXT, read_file
 from ..missing import ABSENT
 
 #: What USD says of a layer that a file refers to and that is not there.
@@ -25,7 +24,7 @@ def read_usd(path: Path, made: Imported) -> None:
     """
     usd = import_extra("pxr.Usd", "usd", "reading USD")
     utils = import_extra("pxr.UsdUtils", "usd", "reading USD")
-    check_size(path)
+    read_file(path, TEXT if path.suffix.lower() == ".usda" else MEMORY)  # or it is refused here
     # As long as it is there, what USD warns of is not printed.
     diagnostics = utils.CoalescingDiagnosticDelegate()
     try:
@@ -39,17 +38,6 @@ def read_usd(path: Path, made: Imported) -> None:
     finally:
         diagnostics.TakeUncoalescedDiagnostics()
         del diagnostics
-
-
-def check_size(path: Path) -> None:
-    """Raises FileError for a file that is absent or too large."""
-    largest = TEXT if path.suffix.lower() == ".usda" else MEMORY
-    try:
-        size = os.stat(path).st_size
-    except OSError as error:
-        raise _core.FileError(f"{path}: cannot be read: {error.strerror}") from None
-    if size > largest:
-        raise _core.FileError(f"{path}: is {size} bytes large; at most {largest} are possible")
 
 
 def opened(usd: Any, path: Path) -> Any:
