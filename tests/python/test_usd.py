@@ -83,6 +83,7 @@ def PointInstancer "points" {{
     made = converted(text)
     assert len(of_type(made, "shapegroup")) == 1
     places = [instance["to_world"][:3] for instance in of_type(made, "instance")]
+    assert len(places) == 2
     np.testing.assert_allclose(places[0], mlt.Transform.translate(1, 0, 0).matrix[:3])
     np.testing.assert_allclose(places[1][:, 3], [3, 0, 0])
     np.testing.assert_allclose(places[1][:, :3], 2 * np.eye(3))
@@ -108,6 +109,20 @@ def PointInstancer "outer" {{
 }}""")
     places = [instance["to_world"][:2, 3].tolist() for instance in of_type(made, "instance")]
     assert places == [[1, 10], [2, 10], [1, 20], [2, 20]]
+
+
+def test_copies_are_placed_before_their_instancer():
+    made = converted(f"""
+def PointInstancer "points" {{
+    rel prototypes = [</points/leaf>]
+    int[] protoIndices = [0, 0]
+    point3f[] positions = [(0, 1, 0), (0, 2, 0)]
+    double3 xformOp:scale = (3, 3, 3)
+    uniform token[] xformOpOrder = ["xformOp:scale"]
+    {mesh(name="leaf")}
+}}""")
+    places = [instance["to_world"][:2, 3].tolist() for instance in of_type(made, "instance")]
+    assert places == [[0, 3], [0, 6]]
 
 
 def test_what_is_scaled_to_nothing_is_left_out():

@@ -113,6 +113,13 @@ def test_a_mesh_that_names_no_scheme_stays_as_it_is_and_is_smooth():
     assert volume(found) == pytest.approx(8)
 
 
+def test_faces_without_corners_change_nothing():
+    text = mesh().replace("[4]", "[4, 0]").replace('uniform token subdivisionScheme = "none"', "")
+    found = converted(text).scene["square"]
+    np.testing.assert_allclose(found["normals"], [[0, 0, 1]] * 4)
+    assert len(found["faces"]) == 2
+
+
 CATMULL_CLARK = 'uniform token subdivisionScheme = "catmullClark"\n'
 
 
