@@ -59,6 +59,14 @@ def test_what_is_hidden_or_no_part_of_a_render_is_left_out():
     assert {"invisible", "guide", "proxy", "render"} & shown.keys() == {"render"}
 
 
+def test_what_is_invisible_stays_so_but_cameras_are_no_things_to_be_seen():
+    again = mesh(name="below", more='uniform token purpose = "render"')
+    rig = f'def Xform "rig" {{ token visibility = "invisible"\n def Camera "b" {{\n}}\n{again} }}'
+    scene = converted(rig).scene
+    assert "below" not in scene
+    assert scene["b"]["type"] == "perspective"
+
+
 def test_instances_share_a_group():
     copy = 'def "{}" (instanceable = true\n references = </lib>) {{ {} }}\n'
     made = converted(LIB + copy.format("one", "") + copy.format("two", moved(0, 7, 0)))

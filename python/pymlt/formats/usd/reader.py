@@ -18,7 +18,8 @@ from .looks import Looks
 from .moments import Moments, matrices
 from .settings import Settings
 
-HIDDEN = (UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy)  #: purposes of what is not rendered
+INVISIBLE = UsdGeom.Tokens.invisible
+HIDDEN = (INVISIBLE, UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy)  #: what is not rendered
 COPIES = limits.MEMORY // limits.PART  #: which fill the memory that a scene may take
 STILL = ("constant", "directional", "envmap")
 #: A stage in which z is up, turned so that y is.
@@ -70,38 +71,35 @@ class Reader:
     def _below(self, prim: Usd.Prim, parent: np.ndarray, purpose: str) -> Iterator[Part]:
         """The parts of a prim and of all below it."""
         imageable = UsdGeom.Imageable(prim)
-        if imageable:
-            if imageable.GetVisibilityAttr().Get(self._time) == UsdGeom.Tokens.invisible:
-                return
+        if imageable and purpose != INVISIBLE:
             if imageable.GetPurposeAttr().HasAuthoredValue():
                 purpose = imageable.GetPurposeAttr().Get()
+            if imageable.GetVisibilityAttr().Get(self._time) == INVISIBLE:
+                purpose = INVISIBLE
         local, of_the_world = self._moments.of(prim)
         placed = (self._root if of_the_world else parent) @ local
         if not is_regular(placed).all():
             self._made.warn("what is scaled to nothing is left out")
             return
-        if purpose not in HIDDEN:
-            yield from self._own(prim, placed)
+        yield from self._own(prim, placed, purpose in HIDDEN)
         if prim.IsA(UsdGeom.PointInstancer):
-            yield from self._points(UsdGeom.PointInstancer(prim), placed, purpose)
+            if purpose != INVISIBLE:
+                yield from self._points(UsdGeom.PointInstancer(prim), placed, purpose)
         elif prim.IsInstance():
             yield from self._instance(prim, placed, purpose)
         else:
             yield from self._children(prim, placed, purpose)
 
-    def _own(self, prim: Usd.Prim, placed: np.ndarray) -> list[Part]:
-        """The parts of a prim itself. Raises SceneError, which names it, if it is not possible."""
-        found = []
+    def _own(self, prim: Usd.Prim, placed: np.ndarray, hidden: bool) -> list[Part]:
+        """The parts of a prim itself, of a hidden one only a camera.
+
+        Raises SceneError, which names the prim, if that is not possible.
+        """
         try:
-            shapes = self._shapes(prim)
-            if prim.HasAPI(UsdLux.LightAPI) and prim.IsA(UsdGeom.Gprim):
-                lights.make_glow(shapes, prim, self._time, placed[0], self._made)
-            elif prim.HasAPI(UsdLux.LightAPI):
-                light = lights.light(prim, self._time, placed[0], self._made)
-                shapes = [light] if light else []
-            found = [self._part(prim, shape, placed) for shape in shapes]
             if prim.IsA(UsdGeom.Camera):
-                found.append(self._camera(prim, placed))
+                return [self._camera(prim, placed)]
+            shapes = [] if hidden else self._shapes(prim, placed[0])
+            return [self._part(prim, shape, placed) for shape in shapes]
         except _core.Error:
             raise
         except limits.CONTRADICTIONS as error:
@@ -109,14 +107,24 @@ class Reader:
             raise _core.SceneError(
                 f"{prim.GetPath()}: contradicts itself: {kind}: {error!s:.200}"
             ) from None
-        return found
 
     def _children(self, prim: Usd.Prim, placed: np.ndarray, purpose: str) -> Iterator[Part]:
         for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies()):
             yield from self._below(child, placed, purpose)
 
-    def _shapes(self, prim: Usd.Prim) -> list[dict[str, Any]]:
-        """The shapes of a prim itself."""
+    def _shapes(self, prim: Usd.Prim, to_world: np.ndarray) -> list[dict[str, Any]]:
+        """The shapes of a prim itself, or the light that it is."""
+        glows = prim.HasAPI(UsdLux.LightAPI)
+        if glows and not prim.IsA(UsdGeom.Gprim):
+            light = lights.light(prim, self._time, to_world, self._made)
+            return [light] if light else []
+        shapes = self._drawn(prim)
+        if glows:
+            lights.make_glow(shapes, prim, self._time, to_world, self._made)
+        return shapes
+
+    def _drawn(self, prim: Usd.Prim) -> list[dict[str, Any]]:
+        """The shapes of a prim itself, as its material makes them look."""
         if prim.IsA(UsdGeom.Mesh):
             return meshes.shapes(prim, self._time, self._looks, self._made)
         shape = primitives.shape(prim, self._time, self._made)
