@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "io/families.h"
 #include "io/leniency.h"
+#include "io/material_parts.h"
 #include "io/shape_parts.h"
 #include "scene/accel/instance.h"
 #include "scene/mesh/mesh.h"
@@ -225,8 +226,15 @@ void Builder::give(Params& params, const Node& parent, const Node& child) {
 
 void Builder::attach(Shape& shape, Params& params) {
   const BsdfPtr bsdf = optional_nested<Bsdf>(params, "bsdf");
-  const EmitterPtr emitter = optional_nested<Emitter>(params, "emitter");
-  shape.set_media({params.object<Medium>("interior"), params.object<Medium>("exterior")});
+  EmitterPtr emitter = optional_nested<Emitter>(params, "emitter");
+  if (!emitter && bsdf && bsdf->glow()) emitter = light_of(*bsdf, registry_, params.where());
+  MediumPtr interior = params.object<Medium>("interior");
+  if (!interior && bsdf && bsdf->inside()) {
+    MediumPtr& inside = inside_[bsdf];  // one for all shapes of a material
+    if (!inside) inside = medium_inside(*bsdf, registry_, params.where());
+    interior = inside;
+  }
+  shape.set_media({interior, params.object<Medium>("exterior")});
   shape.set_bsdf(bsdf ? bsdf : default_bsdf(emitter != nullptr, params.where()));
   if (emitter) attach_light(shape, emitter);
   if (const auto sensor = optional_nested<Camera>(params, "sensor"))

@@ -85,6 +85,7 @@ class Builder {
   std::set<const Node*> lights_of_shapes_;
   std::map<const Object*, View> views_;
   BsdfPtr default_bsdf_[2];
+  std::map<BsdfPtr, MediumPtr> inside_;  ///< The media of materials that bring their own.
   std::vector<std::shared_ptr<ShapeReader>> shape_readers_;
 };
 

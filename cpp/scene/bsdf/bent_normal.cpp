@@ -41,6 +41,8 @@ BentNormal::BentNormal(Params& params)
       flips_(params.boolean("flip_invalid_normals")),
       shadows_(params.boolean("use_shadowing_function")) {
   supports_lanes_ = nested_->supports_lanes();
+  inside_ = nested_->inside();
+  glow_ = nested_->glow();
 }
 
 double BentNormal::turned_share(const Vec3& n, const Vec3& w) const {

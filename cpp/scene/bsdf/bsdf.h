@@ -18,6 +18,12 @@ struct BsdfSample {
   Lobe lobe;
 };
 
+/// What fills a solid, per unit of length, and the mean cosine of its scattering.
+struct SolidInside {
+  Color scattering{0}, absorption{0};
+  double g = 0;
+};
+
 /// A surface that is Lambertian everywhere.
 struct LambertianSurface {
   /// Unknown sides: the surface is not Lambertian. f is that of all points of an RGB scene, unless
@@ -103,6 +109,11 @@ class Bsdf : public Object {
   /// Average reflectance, for previews and sampling weights.
   virtual Spectrum albedo(const SurfacePoint& at) const = 0;
 
+  /// The medium inside of a shape of this material that is given none.
+  const std::optional<SolidInside>& inside() const { return inside_; }
+  /// The radiance (a Texture) of a shape of this material that is given no light; or nullptr.
+  const ObjectPtr& glow() const { return glow_; }
+
   /// The scattering as a Lambertian where the surface is Lambertian; unknown where it is not.
   Lambertian lambertian(const SurfacePoint& at) const { return lambertian_.at(at); }
   const LambertianSurface& lambertian() const { return lambertian_; }
@@ -111,6 +122,8 @@ class Bsdf : public Object {
   // Set by constructors:
   LambertianSurface lambertian_;
   bool supports_lanes_ = false;
+  std::optional<SolidInside> inside_;
+  ObjectPtr glow_;
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;

@@ -11,7 +11,10 @@ namespace {
 class Mask final : public Bsdf {
  public:
   explicit Mask(Params& params)
-      : opacity_(texture_param(params, "opacity")), nested_(only_nested<Bsdf>(params, "bsdf")) {}
+      : opacity_(texture_param(params, "opacity")), nested_(only_nested<Bsdf>(params, "bsdf")) {
+    inside_ = nested_->inside();
+    glow_ = nested_->glow();
+  }
 
   Passage passage(const SurfacePoint& at, const Vec3& w) const override {
     const Spectrum opacity = opacity_->eval(at);

@@ -153,6 +153,59 @@ void add_principled(Maker& maker) {
       true);
 }
 
+void add_openpbr(Maker& maker) {
+  const Value pink = Triple{0.8, 0.3, 0.4}, blue = Triple{0.5, 0.7, 0.9};
+  const auto add = [&](const std::string& label, Given given, bool two_sided = false) {
+    given.push_back({"base_color", pink});
+    maker.add("openpbr" + label, "openpbr", given, 1, infinity, two_sided);
+  };
+  add("", {});
+  add(" clay", {{"base_diffuse_roughness", 0.8}, {"specular_weight", 0.3}});
+  add(" metal",
+      {{"base_metalness", 1.0}, {"specular_color", blue}, {"specular_roughness_anisotropy", 0.7}});
+  add(" coated", {{"coat_weight", ramp_texture(0.5, 1)},
+                  {"coat_color", blue},
+                  {"coat_roughness", 0.3},
+                  {"base_metalness", 0.4}});
+  add(" sharp coat", {{"coat_weight", 1.0}, {"specular_roughness", 0.6}});
+  add(" fuzz", {{"fuzz_weight", 0.9}, {"fuzz_color", blue}, {"coat_weight", 0.5}});
+  add(" textured", {{"specular_roughness", ramp_texture(0, 1)},
+                    {"base_metalness", ramp_texture(0, 1)},
+                    {"specular_weight", ramp_texture(0.2, 1)},
+                    {"fuzz_weight", ramp_texture(0, 0.5)},
+                    {"fuzz_roughness", 0.8}});
+  add(" film", {{"thin_film_weight", 0.8}, {"base_metalness", 0.5}, {"specular_roughness", 0.2}});
+  add(" glass", {{"transmission_weight", 1.0}, {"transmission_color", blue}}, true);
+  add(" half glass",
+      {{"transmission_weight", 0.6},
+       {"base_metalness", 0.2},
+       {"specular_roughness", 0.7},
+       {"specular_ior", 1.3},
+       {"coat_weight", 0.5},
+       {"coat_color", blue},
+       {"fuzz_weight", 0.3},
+       {"thin_film_weight", 0.5}},
+      true);
+  add(" bubble", {{"transmission_weight", 1.0}, {"specular_ior", 0.75}}, true);
+  add(" wax", {{"subsurface_weight", 0.6}, {"transmission_weight", 0.2}}, true);
+  maker.made.back().symmetric =
+      false;  // What enters counts subsurface_weight, what leaves does not.
+  const std::pair<std::string, Value> thin{"geometry_thin_walled", true};
+  add(" sheet", {thin}, true);
+  add(" pane",
+      {thin, {"transmission_weight", 0.8}, {"transmission_color", blue}, {"coat_weight", 0.4}},
+      true);
+  add(" leaf",
+      {thin,
+       {"subsurface_weight", 0.9},
+       {"subsurface_scatter_anisotropy", 0.3},
+       {"transmission_weight", 0.2},
+       {"thin_film_weight", 0.3},
+       {"fuzz_weight", 0.4}},
+      true);
+  add(" veil", {{"geometry_opacity", ramp_texture(0.4, 0.8)}}, true);
+}
+
 const BsdfPtr& find(const Maker& maker, const std::string& label) {
   return std::find_if(maker.made.begin(), maker.made.end(),
                       [&](const Case& c) { return c.label == label; })
@@ -228,6 +281,7 @@ std::vector<Case> make_cases() {
   }
   add_bent(maker);
   add_principled(maker);
+  add_openpbr(maker);
   add_rough(maker, "beckmann");
   add_rough(maker, "ggx");
   return maker.made;

@@ -1,0 +1,121 @@
+#include "scene/bsdf/thin_film.h"
+
+#include "math/colorimetry.h"
+#include "math/wavelengths.h"
+
+#include <glm/common.hpp>
+
+namespace mlt {
+namespace {
+
+/// The amplitudes that an interface between indices n1 and n2 reflects of s and p polarised light,
+/// with the same sign at normal incidence; both 1 under total reflection.
+struct Amplitudes {
+  double s, p;
+
+  Amplitudes(double n1, double cos1, double n2, double cos2) {
+    s = cos2 > 0 ? (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2) : 1;
+    p = cos2 > 0 ? (n1 * cos2 - n2 * cos1) / (n1 * cos2 + n2 * cos1) : 1;
+  }
+};
+
+/// The reflectance of two interfaces with these amplitudes, and a phase between them.
+double airy(double r12, double r23, double cos_phase) {
+  const double product = r12 * r23, both = 2 * product * cos_phase;
+  return (sqr(r12) + sqr(r23) + both) / (1 + sqr(product) + both);
+}
+
+/// The cosine behind an interface with n = n2 / n1; 0 under total reflection.
+double refracted_cosine(double cosine, double n) {
+  return std::sqrt(std::max(0.0, 1 - (1 - sqr(cosine)) / sqr(n)));
+}
+
+/// f(nm) as R, G and B of a surface that reflects it, under D65.
+template <class F>
+Color colour_of(F&& f) {
+  const Vec3 xyz = xyz_of([&](double nm) { return d65(nm) * f(nm); });
+  static const Color white = xyz_to_srgb(xyz_of([](double nm) { return d65(nm); }));
+  return glm::clamp(xyz_to_srgb(xyz) / white, Color(0), Color(1));
+}
+
+/// A place between the nodes of a table over [0, 1].
+struct NodePlace {
+  int first;
+  double within;
+
+  NodePlace(double x, int nodes) {
+    const double scaled = std::clamp(x, 0.0, 1.0) * (nodes - 1);
+    first = std::min(static_cast<int>(scaled), nodes - 2);
+    within = scaled - first;
+  }
+};
+
+}  // namespace
+
+ThinFilm::ThinFilm(double nanometres, double film, double base)
+    : nanometres_(nanometres), film_(film), base_(base) {
+  for (int i = 0; i < cosines; ++i) {
+    const double cosine = static_cast<double>(i) / (cosines - 1);
+    dielectric_[i] = colour_of([&](double nm) { return dielectric_at(cosine, nm); });
+    for (int k = 0; k < levels; ++k) {
+      const double below = sqr(static_cast<double>(k) / (levels - 1));
+      metal_[i][k] = colour_of([&](double nm) { return metal_at(cosine, nm, below); });
+    }
+  }
+}
+
+double ThinFilm::cosine_inside(double cosine) const { return refracted_cosine(cosine, film_); }
+
+double ThinFilm::path(double cosine) const {
+  return 4 * pi * film_ * nanometres_ * cosine_inside(cosine);
+}
+
+double ThinFilm::dielectric_at(double cosine, double nm) const {
+  const double inside = cosine_inside(cosine);
+  if (!(inside > 0)) return 1;
+  const Amplitudes top(1, cosine, film_, inside);
+  const Amplitudes bottom(film_, inside, base_, refracted_cosine(cosine, base_));
+  const double cos_phase = std::cos(path(cosine) / nm);
+  return 0.5 * (airy(top.s, bottom.s, cos_phase) + airy(top.p, bottom.p, cos_phase));
+}
+
+double ThinFilm::metal_at(double cosine, double nm, double below) const {
+  const double inside = cosine_inside(cosine);
+  if (!(inside > 0)) return 1;
+  const Amplitudes top(1, cosine, film_, inside);
+  const double bottom = -std::sqrt(below), cos_phase = std::cos(path(cosine) / nm);
+  return 0.5 * (airy(top.s, bottom, cos_phase) + airy(top.p, bottom, cos_phase));
+}
+
+Spectrum ThinFilm::dielectric(double cosine, double wavelength) const {
+  if (wavelength >= 0)
+    return at_wavelengths(wavelength, [&](double nm) { return dielectric_at(cosine, nm); });
+  const NodePlace at(cosine, cosines);
+  return Spectrum(glm::mix(dielectric_[at.first], dielectric_[at.first + 1], at.within));
+}
+
+Spectrum ThinFilm::mean(double wavelength) const {
+  constexpr int steps = 16;
+  Spectrum sum(0);
+  for (int i = 0; i < steps; ++i)  // at even steps of cos^2, 2 int_0^1 f(c) c dc
+    sum += dielectric(std::sqrt((i + 0.5) / steps), wavelength);
+  return sum / steps;
+}
+
+Spectrum ThinFilm::metal(double cosine, double wavelength, const Spectrum& below) const {
+  if (is_single(wavelength)) return Spectrum(metal_at(cosine, wavelength, below[0]));
+  if (wavelength >= 0)
+    return lane_by_lane(wavelengths::look_up(wavelengths::tables.nm, wavelength), below,
+                        [&](double nm, double r) { return metal_at(cosine, nm, r); });
+  const NodePlace at(cosine, cosines);
+  const auto channel = [&](int c, double r) {
+    const NodePlace level(std::sqrt(r), levels);
+    const auto row = [&](int i) {
+      return glm::mix(metal_[i][level.first][c], metal_[i][level.first + 1][c], level.within);
+    };
+    return glm::mix(row(at.first), row(at.first + 1), at.within);
+  };
+  return Spectrum(Color(channel(0, below[0]), channel(1, below[1]), channel(2, below[2])));
+}
+
+}  // namespace mlt
