@@ -7,7 +7,7 @@ import pymlt as mlt
 
 pytest.importorskip("pxr", reason="needs pymlt[usd]")
 
-from usd_files import converted, mesh
+from usd_files import converted, mesh, written
 
 UVS = 'texCoord2f[] primvars:{} = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")\n'
 BOUND = "rel material:binding = </paint>\n"
@@ -396,3 +396,41 @@ def test_texture_coordinates_of_materialx():
     skew = others.replace("(0, 0, 1)", "(0, 1, 0)")
     said = "texture coordinates of the kind 'ND_rotate3d_vector3' are left out"
     assert said in painted(inputs, skew, OPEN_PBR).warnings
+
+
+SKY = 'def DomeLight "sky" {\n}\n'
+BLACK = "color3f inputs:diffuseColor = (0, 0, 0)\nfloat inputs:ior = 1\n"
+
+
+def seen(inputs: str, others: str = "") -> np.ndarray:
+    """The middle of a square below a sky of radiance 1, as a file and as the XML made of it."""
+    square = mesh(UVS.format("st") + BOUND, head=HEAD)
+    written(SKY + material(inputs, others) + square)
+    assert mlt.convert("a.usda", "a.xml") == []
+    scenes = [mlt.load(name, size=(32, 24)) for name in ("a.usda", "a.xml")]
+    images = [mlt.render(scene, "path", spp=64, seed=1) for scene in scenes]
+    np.testing.assert_allclose(*images, rtol=1e-4, atol=1e-5)
+    return images[0][10:14, 14:18].mean(axis=(0, 1))
+
+
+def test_what_lets_light_through_shows_the_sky_behind_it():
+    assert seen(BLACK) == pytest.approx([0] * 3, abs=0.01)
+    assert seen(BLACK + "float inputs:opacity = 0.25") == pytest.approx([0.75] * 3, rel=0.03)
+    presence = 'float inputs:opacity = 0.25\ntoken inputs:opacityMode = "presence"'
+    assert seen(BLACK + presence) == pytest.approx([0.75] * 3, rel=0.03)
+
+
+def test_a_matte_surface_has_its_colour():
+    matte = BLACK.replace("(0, 0, 0)", "(0.2, 0.4, 0.8)") + "float inputs:roughness = 1"
+    assert seen(matte) == pytest.approx([0.2, 0.4, 0.8], rel=0.03)
+
+
+def test_an_image_colours_a_surface():
+    mlt.write_image("a.exr", np.full((4, 4, 3), [0.2, 0.4, 0.8], np.float32))
+    textured = DIFFUSE + "\nfloat inputs:ior = 1"
+    assert seen(textured, texture()) == pytest.approx([0.2, 0.4, 0.8], rel=0.03)
+
+
+def test_a_metal_reflects_the_sky_in_its_colour():
+    metal = "color3f inputs:diffuseColor = (0.9, 0.6, 0.3)\nfloat inputs:metallic = 1\n"
+    assert seen(metal + "float inputs:roughness = 0.1") == pytest.approx([0.9, 0.6, 0.3], rel=0.03)
