@@ -72,7 +72,7 @@ def pixels(file: dict[str, Any]) -> np.ndarray | None:
 
 
 def rgb_pixels(file: dict[str, Any]) -> np.ndarray | None:
-    """As `pixels`, of three colours without alpha."""
+    """The linear red, green and blue of a file, (height, width, 3); None if it is missing."""
     image = pixels(file)
     if image is None:
         return None

@@ -54,7 +54,7 @@ class Image(NamedTuple):
         return values * self.scale + self.bias
 
     def colours(self) -> np.ndarray | None:
-        """As `rgba`, without the last channel."""
+        """The values of `rgba` without the last channel."""
         values = self.rgba()
         return None if values is None else values[..., :3]
 

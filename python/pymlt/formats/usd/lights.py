@@ -84,7 +84,7 @@ def sphere(
     """A sphere, or a light of no size if it says so or has a cone."""
     prim = given.GetPrim()
     radius = float(given.GetRadiusAttr().Get(time))
-    # Of an ellipsoid, that of the sphere of its volume.
+    # An ellipsoid counts as the sphere that has its volume.
     scale = abs(np.linalg.det(to_world[:3, :3])) ** (1 / 3)
     area = 4 * math.pi * (radius * scale) ** 2
     shaped = cone(prim, time, made)

@@ -45,7 +45,7 @@ class Textures:
         return found.bitmap() if values is None else found.made_of(self.cut(name, values))
 
     def opacity(self, name: str, threshold: float) -> float | dict[str, Any]:
-        """As a number; with a threshold it is 0 or 1."""
+        """A number from 0 to 1, or a texture; with a threshold its values are 0 or 1."""
         found = self._image(name)
         values: Any = self._fallback(name, 1.0) if found is None else found.channel()
         if values is None:
