@@ -1,4 +1,4 @@
-"""Run by Python with `bpy`: exports a scene as glTF, and writes what its camera sees by Blender.
+"""Run by Python with `bpy`: exports a scene as glTF and USD, and writes what its camera sees.
 
 Also Blender's default cube below one lamp at a time, with the picture of Cycles.
 """
@@ -93,15 +93,21 @@ def export(path, kind="GLB"):
     )
 
 
+def export_usd(path):
+    bpy.ops.wm.usd_export(filepath=str(path))
+
+
 def main(folder: Path) -> None:
     build()
+    export_usd(folder / "scene.usdc")
     for kind, name in (("GLB", "scene.glb"), ("GLTF_SEPARATE", "scene.gltf")):
         export(folder / name, kind)
     (folder / "seen.json").write_text(json.dumps(seen()))
-    for lamp in ("POINT", "SUN", "SPOT", "glow"):
+    for lamp in ("POINT", "SUN", "SPOT", "AREA", "glow"):
         build_cube(lamp)
         render(folder / f"{lamp}.exr")
         export(folder / f"{lamp}.glb")
+        export_usd(folder / f"{lamp}.usdc")
 
 
 main(Path(sys.argv[1]))

@@ -11,7 +11,7 @@ from pymlt.scenes.kinds import EXTENSIONS, OTHERS
 
 KNOWN_ELSEWHERE = {  # what is said of a file, and what to do with it
     ".fbx": ("Autodesk FBX", "import it into Blender and export it as glTF"),
-    ".usda": ("Universal Scene Description", "import it into Blender and export it as glTF"),
+    ".abc": ("Alembic", "import it into Blender and export it as glTF"),
     ".blend": ("a scene of Blender", "export it from Blender as glTF .*, or render it there"),
     ".max": ("a scene of 3ds Max", "export it from 3ds Max as glTF"),
     ".c4d": ("a scene of Cinema 4D", "export it from Cinema 4D as glTF"),

@@ -6,7 +6,7 @@ from ..formats.files import convert
 from ..scenes.kinds import EXTENSIONS
 from .common import say, warn
 
-HELP = "Write a scene of glTF or pbrt, or a mesh, as Mitsuba XML, meshes and images beside it."
+HELP = "Write a scene of glTF, pbrt or USD, or a mesh, as Mitsuba XML, meshes and images beside it."
 
 
 def add_arguments(command) -> None:

@@ -25,7 +25,7 @@ HELP = "Render a scene to image files."
 
 # Where pymlt can do more than mlt-render.
 HELP_HERE = {
-    "scene": "Mitsuba XML, glTF 2.0 or pbrt file, MaterialX, a mesh (.ply, .obj, .stl), or "
+    "scene": "Mitsuba XML, glTF 2.0, pbrt or USD file, MaterialX, a mesh (.ply, .obj, .stl), or "
     "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
     "exposure": EXPOSURE_HELP,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..scenes.arrays import with_bytes
-from ..scenes.kinds import EXTENSIONS, MESHES, check_kind, is_foreign
+from ..scenes.kinds import EXTENSIONS, MESHES, USD, check_kind, is_foreign
 from ..scenes.loading import load_dict
 from . import limits
 
@@ -63,6 +63,10 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
         from .mesh_file import read_mesh
 
         return read_mesh
+    if path.name.lower().endswith(USD):
+        from .usd import read_usd
+
+        return read_usd
     from .gltf import read_gltf
 
     return read_gltf
@@ -116,10 +120,10 @@ def load_materials(path: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
 def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str]) -> list[str]:
     """Write a scene as Mitsuba XML.
 
-    `path` names a scene of another program (.gltf, .glb, .pbrt), materials (.mtlx) or a mesh (.ply,
-    .obj, .stl), or is a scene dict. Its meshes (.ply) and images are written beside `output`, with
-    names that begin as its own does. Returns what has no counterpart, one line each. Raises
-    FileError for files that cannot be read or written, SceneError for what is wrong in them,
+    `path` names a scene of another program (.gltf, .glb, .pbrt, .usd), materials (.mtlx) or a mesh
+    (.ply, .obj, .stl), or is a scene dict. Its meshes (.ply) and images are written beside
+    `output`, with names that begin as its own does. Returns what has no counterpart, one line each.
+    Raises FileError for files that cannot be read or written, SceneError for what is wrong in them,
     UsageError for another extension or without the extra that reading needs.
     """
     from .written import Written

@@ -43,6 +43,8 @@ def load(
     .mtlx
         materials of MaterialX, each on a ball (`load_materials` gives them alone); needs the extra
         `materialx`.
+    .usd, .usda, .usdc, .usdz
+        Universal Scene Description; needs the extra `usd`.
     .ply, .obj, .stl, .ply.gz, .obj.gz
         one mesh, in which y is up, with a grey material, light, and a camera that it fits.
     anything else that exists, but files of other programs (.blend, .fbx, ...)

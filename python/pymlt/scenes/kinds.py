@@ -7,7 +7,8 @@ import os
 from .. import _core
 
 MESHES = (".ply", ".obj", ".stl", ".ply.gz", ".obj.gz")
-EXTENSIONS = (".gltf", ".glb", ".pbrt", ".mtlx", *MESHES)
+USD = (".usd", ".usda", ".usdc", ".usdz")
+EXTENSIONS = (".gltf", ".glb", ".pbrt", ".mtlx", *USD, *MESHES)
 
 _BLENDER = "export it from Blender as glTF (.glb), or render it there with pymlt's extension"
 _IMPORT = "import it into Blender and export it as glTF (.glb)"
@@ -23,7 +24,6 @@ def _own(program: str) -> tuple[str, str]:
 OTHERS = {
     (".blend",): ("a scene of Blender", _BLENDER),
     (".fbx",): ("Autodesk FBX", _IMPORT),
-    (".usd", ".usda", ".usdc", ".usdz"): ("Universal Scene Description", _IMPORT),
     (".dae",): ("COLLADA", _CONVERT),
     (".abc",): ("Alembic", _IMPORT),
     (".x3d", ".wrl"): ("X3D or VRML", _CONVERT),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from ..frames import looking
 from ..imported import Imported, rgb
 from ..views import film
 from .checked import number
@@ -59,17 +60,3 @@ def light(given: dict[str, Any], to_world: np.ndarray, made: Imported) -> dict[s
         "beam_width": math.degrees(number(cone.get("innerConeAngle", 0), "a cone")),
         "to_world": placed,
     }
-
-
-def looking(to_world: np.ndarray) -> np.ndarray:
-    """Where something that looks along its -z is, as a frame without scale that looks along +z."""
-    import numpy as np
-
-    placed = np.eye(4)
-    forward, up = -to_world[:3, 2], to_world[:3, 1]
-    placed[:3, 2] = forward / np.linalg.norm(forward)
-    left = np.cross(up, placed[:3, 2])
-    placed[:3, 0] = left / np.linalg.norm(left)
-    placed[:3, 1] = np.cross(placed[:3, 2], placed[:3, 0])
-    placed[:3, 3] = to_world[:3, 3]
-    return placed

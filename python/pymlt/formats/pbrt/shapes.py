@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..frames import is_similarity
 from ..limits import read_file
 from ..ply import Mesh
 from .params import Params
@@ -95,15 +96,6 @@ def ellipsoid(params: Params, radius: float) -> dict[str, Any]:
     params.warn("ellipsoids become meshes")
     mesh = params.made.mesh("ellipsoid", Mesh(radius * normals, triangles, normals, uvs))
     return mesh | {"has_normals": True}
-
-
-def is_similarity(matrix: np.ndarray) -> bool:
-    """Whether it moves, turns, mirrors and scales evenly only."""
-    import numpy as np
-
-    products = matrix[:3, :3].T @ matrix[:3, :3]
-    scale = np.trace(products) / 3
-    return bool(np.allclose(products, scale * np.eye(3), atol=1e-6 * scale))
 
 
 def disk(params: Params, folder: Path) -> dict[str, Any]:

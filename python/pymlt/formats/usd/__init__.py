@@ -1,0 +1,5 @@
+"""Universal Scene Description (OpenUSD), read by usd-core."""
+
+from .stage import read_usd
+
+__all__ = ["read_usd"]
