@@ -228,6 +228,7 @@ void Builder::attach(Shape& shape, Params& params) {
   const BsdfPtr bsdf = optional_nested<Bsdf>(params, "bsdf");
   EmitterPtr emitter = optional_nested<Emitter>(params, "emitter");
   if (!emitter && bsdf && bsdf->glow()) emitter = light_of(*bsdf, registry_, params.where());
+  if (params.has("priority")) shape.set_priority(params.integer("priority"));
   MediumPtr interior = params.object<Medium>("interior");
   if (!interior && bsdf && bsdf->inside()) {
     MediumPtr& inside = inside_[bsdf];  // one for all shapes of a material

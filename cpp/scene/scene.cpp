@@ -128,6 +128,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   const Shutter& shutter = camera_->shutter();
   light_choice_ = LightChoice(emitters_, shutter.open, shutter.close);
   for (const EmitterPtr& emitter : emitters_) mesh_lights_.push_back(mlt::mesh_light(*emitter));
+  solids_ = Solids(shapes_, grouped, shutter);
   accel_ = known && known->fits(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());
@@ -157,6 +158,8 @@ void Scene::find_surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at)
   at.time = ray.time;
   at.wavelength = ray.wavelength;
   at.medium = ray.medium;
+  const SolidIndex solid = solids_.index(at.shape);
+  at.around = solid == no_solid ? no_solid : solids_.around(at, solid);
   at.lambertian = bsdf(at).lambertian(at);
 }
 

@@ -8,6 +8,7 @@
 #include "scene/light/light_choice.h"
 #include "scene/medium/media.h"
 #include "scene/shape/shape.h"
+#include "scene/solid/solids.h"
 
 #include <atomic>
 #include <memory>
@@ -73,6 +74,7 @@ class Scene {
   const Emitter* emitter(const SurfacePoint& at) const {
     return at.in_medium() ? nullptr : shapes_[at.shape]->emitter();
   }
+  const Solids& solids() const { return solids_; }
   const Media& media() const { return media_; }
   bool has_media() const { return has_media_; }
   /// The medium around a point that was sampled on a light, in a scene with media.
@@ -187,6 +189,7 @@ class Scene {
   int64_t sample_count_;
   Vec3 origin_;
   Bounds bounds_;
+  Solids solids_;
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
   bool has_passages_ = false, has_media_ = false, has_coloured_media_ = false;

@@ -17,6 +17,12 @@ enum class PointKind : uint8_t {
   infinite   ///< At infinity: `p` is the unit direction towards it, the measure is solid angle.
 };
 
+/// The place of a solid in Solids; `no_solid` is empty space.
+using SolidIndex = uint16_t;
+inline constexpr SolidIndex no_solid = 0xffff;
+/// Stands in place of what is around a surface that lies in a solid of higher priority.
+inline constexpr SolidIndex hidden_surface = 0xfffe;
+
 struct SurfacePoint {
   Vec3 p{0};                  ///< Position; for an infinite point, the unit direction towards it.
   Vec3 ng{0};                 ///< Geometric normal, on the same side as the shading normal.
@@ -29,6 +35,7 @@ struct SurfacePoint {
   /// The medium that it is in. At a surface: the one that it was hit or is lit through, which is
   /// that of both sides unless the surface is a boundary (Media).
   MediumIndex medium = no_medium;
+  SolidIndex around = no_solid;   ///< On a solid: the one that its surface is in.
   double time = 0;                ///< Time, on moving shapes.
   double wavelength = rgb_lanes;  ///< That of its path: see wavelengths.h.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.

@@ -59,7 +59,8 @@ inline std::vector<std::string> scene_names() {
 }
 
 inline std::set<std::string> media_scene_names() {
-  return {"fog", "smoke_box", "smoke", "volume_caustic", "spectral_fog", "clipped_fog"};
+  return {"fog",          "smoke_box",   "smoke",  "volume_caustic",
+          "spectral_fog", "clipped_fog", "solids", "openpbr"};
 }
 inline std::set<std::string> spectral_scene_names() {
   return {"spectral_room", "prism", "frosted_prism", "spectral_fog", "prism_beam"};
@@ -96,10 +97,11 @@ inline std::vector<std::string> moving_scene_names() {
 /// walk can hit.
 inline std::vector<std::string> mutation_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* name : {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
-                           "point_caustic", "lens_through_mirror", "moving_mirror", "moving_lamp",
-                           "moving_lens", "spinning_instance", "glass_torus", "beam", "prism_beam",
-                           "window_caustic", "volume_caustic", "clipped", "clipped_fog"})
+  for (const char* name :
+       {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic", "point_caustic",
+        "lens_through_mirror", "moving_mirror", "moving_lamp", "moving_lens", "spinning_instance",
+        "glass_torus", "beam", "prism_beam", "window_caustic", "volume_caustic", "clipped",
+        "clipped_fog", "solids", "openpbr"})
     names.push_back(name);
   return names;
 }

@@ -18,6 +18,8 @@ struct BsdfSample {
   Lobe lobe;
 };
 
+struct SideIndex;
+
 /// What fills a solid, per unit of length, and the mean cosine of its scattering.
 struct SolidInside {
   Color scattering{0}, absorption{0};
@@ -89,6 +91,14 @@ class Bsdf : public Object {
   /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not
   /// refract.
   virtual double relative_eta(const SurfacePoint& /*at*/, const Vec3& /*w*/) const { return 1; }
+
+  /// The index of refraction below the surface of a dielectric; nullptr of other materials.
+  virtual const SideIndex* index_inside() const { return nullptr; }
+  /// A dielectric with this index above its surface; nullptr of materials to which it does not
+  /// matter.
+  virtual std::shared_ptr<const Bsdf> immersed(const SideIndex& /*outside*/) const {
+    return nullptr;
+  }
 
   /// The roughness (Beckmann-equivalent alpha) of the narrowest smooth lobe that contributes to
   /// scattering between these directions; infinity for a diffuse surface, 0 for delta lobes.

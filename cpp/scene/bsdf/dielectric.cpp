@@ -48,6 +48,12 @@ class Dielectric final : public Bsdf {
   double relative_eta(const SurfacePoint& at, const Vec3& w) const override {
     return w.z > 0 ? 1 / interface_.eta(at) : interface_.eta(at);
   }
+  const SideIndex* index_inside() const override { return &interface_.inside(); }
+  BsdfPtr immersed(const SideIndex& outside) const override {
+    auto there = std::make_shared<Dielectric>(*this);
+    there->interface_.immerse(outside);
+    return there;
+  }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
 
   Spectrum albedo(const SurfacePoint& at) const override {

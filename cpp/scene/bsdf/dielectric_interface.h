@@ -14,13 +14,14 @@ class DielectricInterface {
       : reflectance(texture_param(params, "specular_reflectance")),
         transmittance(texture_param(params, "specular_transmittance")),
         index_(relative_index_param(params)),
+        eta_(index_.in_rgb()),
         reflection_weight_(target_luminance(reflectance->mean())),
         transmission_weight_(target_luminance(transmittance->mean())) {}
 
   /// n_below / n_above where there are no wavelengths, and at the first wavelength of a point.
-  double eta() const { return index_.in_rgb; }
+  double eta() const { return eta_; }
   double eta(const SurfacePoint& at) const {
-    return disperses(at) ? index_.at_nm(wavelength_of(at.wavelength)) : index_.in_rgb;
+    return disperses(at) ? index_.at_nm(wavelength_of(at.wavelength)) : eta_;
   }
   /// Whether light of different wavelengths is refracted differently.
   bool disperses(const SurfacePoint& at) const { return at.wavelength >= 0 && index_.disperses(); }
@@ -48,10 +49,18 @@ class DielectricInterface {
     return F * reflectance->eval(at) + (1 - F) * transmittance->eval(at);
   }
 
+  const SideIndex& inside() const { return index_.inside; }
+  /// Puts something else above the surface.
+  void immerse(const SideIndex& outside) {
+    index_.outside = outside;
+    eta_ = index_.in_rgb();
+  }
+
   TexturePtr reflectance, transmittance;
 
  private:
   RelativeIndex index_;
+  double eta_;
   double reflection_weight_, transmission_weight_;
 };
 

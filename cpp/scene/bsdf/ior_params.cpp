@@ -8,12 +8,6 @@
 namespace mlt {
 namespace {
 
-/// An index, and what it is where there are no wavelengths.
-struct Index {
-  RefractiveIndex curve;
-  double in_rgb;
-};
-
 /// "cauchy A B", "sellmeier B1 B2 B3 C1 C2 C3" or "abbe n_d V_d"; nullopt for other words.
 std::optional<RefractiveIndex> formula(const std::string& text) {
   const std::vector<std::string_view> words = split(text);
@@ -33,7 +27,7 @@ std::optional<RefractiveIndex> formula(const std::string& text) {
   return RefractiveIndex::sellmeier(terms);
 }
 
-Index named_index(Params& params, const std::string& name, const std::string& text) {
+SideIndex named_index(Params& params, const std::string& name, const std::string& text) {
   if (const auto number = parse_real(text)) return {RefractiveIndex::constant(*number), *number};
   if (const auto found = formula(text)) return {*found, found->sodium()};
   const auto ior = find_dielectric(text);
@@ -45,7 +39,7 @@ Index named_index(Params& params, const std::string& name, const std::string& te
   return {params.has(name) ? *find_dispersive(text) : RefractiveIndex::constant(*ior), *ior};
 }
 
-Index index_of(Params& params, const std::string& name) {
+SideIndex index_of(Params& params, const std::string& name) {
   const Value& value = params.value(name);
   try {
     if (const auto* text = std::get_if<std::string>(&value))
@@ -97,8 +91,7 @@ double relative_ior_param(Params& params) {
 }
 
 RelativeIndex relative_index_param(Params& params) {
-  const Index inside = index_of(params, "int_ior"), outside = index_of(params, "ext_ior");
-  return {inside.curve, outside.curve, inside.in_rgb / outside.in_rgb};
+  return {index_of(params, "int_ior"), index_of(params, "ext_ior")};
 }
 
 std::vector<Parameter> conductor_parameters() {

@@ -14,13 +14,26 @@ std::vector<Parameter> ior_parameters(const std::string& default_inside);
 /// The relative index int_ior / ext_ior where there are no wavelengths.
 double relative_ior_param(Params& params);
 
+/// An index, and what it is where there are no wavelengths.
+struct SideIndex {
+  RefractiveIndex curve;
+  double in_rgb;
+};
+
+/// An index that differs from this one by so little that nearly nothing is reflected between them.
+inline SideIndex barely_denser(const SideIndex& index) {
+  const double n = 1.0001 * index.in_rgb;
+  return {RefractiveIndex::constant(n), n};
+}
+
 /// A relative index that may depend on the wavelength.
 struct RelativeIndex {
-  RefractiveIndex inside, outside;
-  double in_rgb;  ///< Where there are no wavelengths.
+  SideIndex inside, outside;
 
-  bool disperses() const { return inside.disperses() || outside.disperses(); }
-  double at_nm(double nm) const { return inside.at(nm) / outside.at(nm); }
+  /// Where there are no wavelengths.
+  double in_rgb() const { return inside.in_rgb / outside.in_rgb; }
+  bool disperses() const { return inside.curve.disperses() || outside.curve.disperses(); }
+  double at_nm(double nm) const { return inside.curve.at(nm) / outside.curve.at(nm); }
 };
 /// That of int_ior and ext_ior. A default does not disperse.
 RelativeIndex relative_index_param(Params& params);

@@ -75,6 +75,14 @@ class OpenPbr final : public OpenPbrReflection {
         Microfacet(p.facets).invert(upwards(from), facet.h));
   }
 
+  const SideIndex* index_inside() const override { return glass_ ? &index_.inside : nullptr; }
+  BsdfPtr immersed(const SideIndex& outside) const override {
+    if (!glass_) return nullptr;
+    auto there = std::make_shared<OpenPbr>(*this);
+    there->index_.outside = outside;
+    there->set_eta(textures_.relative_ior(outside.in_rgb));
+    return there;
+  }
   double relative_eta(const SurfacePoint& at, const Vec3& w) const override {
     return glass_ ? eta_on_side(eta(at), w) : 1;
   }
@@ -91,7 +99,7 @@ class OpenPbr final : public OpenPbrReflection {
                  number = params.real_in("transmission_dispersion_abbe_number", 1e-3, 1e9);
     const RefractiveIndex curve =
         scale > 0 ? RefractiveIndex::abbe(eta, number / scale) : RefractiveIndex::constant(eta);
-    return {curve, RefractiveIndex::constant(1), eta};
+    return {{curve, eta}, {RefractiveIndex::constant(1), 1}};
   }
   bool disperses(const SurfacePoint& at) const {
     return glass_ && at.wavelength >= 0 && index_.disperses();

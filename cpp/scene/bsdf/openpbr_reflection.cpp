@@ -6,7 +6,7 @@ namespace {
 double openpbr_eta(const OpenPbrTextures& textures, bool opaque) {
   // Light that is refracted leaves the coat in the direction that it has without one.
   const double alone = textures.relative_ior(1);
-  if (!opaque) return alone == 1 ? 1.001 : alone;
+  if (!opaque) return alone;
   const double coat = textures.coat_weight.mean(), ior = textures.coat_ior;
   if (coat == 0) return alone;
   const double below = textures.relative_ior(ior);
@@ -25,17 +25,12 @@ OpenPbrReflection::OpenPbrReflection(Params& params, Kind kind)
       stretched_(!textures_.specular_roughness_anisotropy.vanishes()),
       coat_tints_(textures_.coat_color->mean() != Color(1)) {
   const bool enters = textures_.transmits() || (!thin_ && textures_.has_subsurface());
-  eta_ = openpbr_eta(textures_, !enters);
-  energy_ = InterfaceEnergy::of(eta_);
   transmits_ = enters || (thin_ && textures_.has_subsurface());
-  if (enters && !thin_) glass_ = BalancedScales::of_glass(eta_);
+  refracts_ = enters && !thin_;
+  set_eta(openpbr_eta(textures_, !enters));
   if (coated_) {
     coat_energy_ = InterfaceEnergy::of(textures_.coat_ior);
     coat_mean_fresnel_ = fresnel_diffuse_reflectance(textures_.coat_ior);
-  }
-  if (!textures_.thin_film_weight.vanishes()) {
-    film_.emplace(1000 * textures_.thin_film_thickness, textures_.thin_film_ior, eta_);
-    mean_fresnel_ = fresnel_diffuse_reflectance(eta_);
   }
   glow_ = openpbr_glow(params);
   base_weight_ = textures_.base_weight.mean() * target_luminance(textures_.base_color->mean());
@@ -45,6 +40,16 @@ OpenPbrReflection::OpenPbrReflection(Params& params, Kind kind)
   const double narrowest = sqr(coated_ ? std::min(r, rc) : r);
   supports_lanes_ = !thin_ && !has_transmission() && !film_ && !has_passage() &&
                     narrowest >= least_alpha_in_lanes;
+}
+
+void OpenPbrReflection::set_eta(double eta) {
+  eta_ = eta == 1 && transmits_ ? 1.001 : eta;
+  energy_ = InterfaceEnergy::of(eta_);
+  if (refracts_) glass_ = BalancedScales::of_glass(eta_);
+  if (!textures_.thin_film_weight.vanishes()) {
+    film_.emplace(1000 * textures_.thin_film_thickness, textures_.thin_film_ior, eta_);
+    mean_fresnel_ = fresnel_diffuse_reflectance(eta_);
+  }
 }
 
 template <class F>

@@ -67,6 +67,8 @@ class OpenPbrReflection : public Bsdf {
   /// wall.
   enum class Kind : uint8_t { solid, thin };
   OpenPbrReflection(Params& params, Kind kind);
+  /// Sets n_below / n_above of the base.
+  void set_eta(double eta);
 
   Point<double> point(const SurfacePoint& at) const {
     const SurfacePoint* one = &at;
@@ -131,6 +133,7 @@ class OpenPbrReflection : public Bsdf {
   Spectrum under_film(const Colors& colors, const Terms<double>& terms) const;
   Spectrum darkening(const SurfacePoint& at, const Spectrum& base, double weight) const;
 
+  bool refracts_ = false;  ///< Whether it is a solid that light enters.
   bool thin_, coated_, fuzzy_, metallic_, rough_base_, stretched_, coat_tints_;
   double metal_weight_, fuzz_weight_, mean_fresnel_ = 0, coat_mean_fresnel_ = 0;
   std::shared_ptr<const InterfaceEnergy> energy_, coat_energy_;

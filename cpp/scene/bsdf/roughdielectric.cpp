@@ -57,6 +57,13 @@ class RoughDielectric final : public Bsdf {
   double relative_eta(const SurfacePoint& at, const Vec3& w) const override {
     return eta_on_side(interface_.eta(at), w);
   }
+  const SideIndex* index_inside() const override { return &interface_.inside(); }
+  BsdfPtr immersed(const SideIndex& outside) const override {
+    auto there = std::make_shared<RoughDielectric>(*this);
+    there->interface_.immerse(outside);
+    if (there->interface_.eta() == 1) there->interface_.immerse(barely_denser(outside));
+    return there;
+  }
   double roughness(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
     return surface_.alpha(at);
   }

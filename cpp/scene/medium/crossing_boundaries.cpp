@@ -20,7 +20,7 @@ void follow(const Scene& scene, Ray ray, Crossings& found) {
   MediumIndex medium = no_medium;
   SurfacePoint at;
   for (int i = 0; i < most_surfaces && scene.intersect(ray, at); ++i) {
-    if (media.is_boundary(at.shape)) {
+    if (media.is_boundary(at)) {
       const Shape* shape = scene.shapes()[at.shape].get();
       if (last) ++found.all;
       if (last && medium != media.beside(at, -ray.d) && ++found.wrong == 1) {

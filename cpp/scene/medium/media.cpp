@@ -4,11 +4,13 @@
 
 namespace mlt {
 
-void Media::add(const std::vector<ShapePtr>& shapes) {
+void Media::add(const std::vector<ShapePtr>& shapes, const std::vector<uint32_t>& solids) {
   for (const ShapePtr& shape : shapes) {
     const auto& [interior, exterior] = shape->media();
     boundaries_.push_back({add(exterior), add(interior), interior || exterior});
   }
+  solids_ = solids;
+  for (const uint32_t shape : solids) boundaries_[shape].exists = true;
 }
 
 MediumIndex Media::add(const MediumPtr& medium) {

@@ -20,7 +20,7 @@ MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w, MediumIn
   ray.t_max = infinity;  // beyond the far plane of the camera, too
   SurfacePoint hit;
   while (intersect(ray, hit)) {
-    if (media_.is_boundary(hit.shape)) return media_.beside(hit, -w);
+    if (media_.is_boundary(hit)) return media_.beside(hit, -w);
     ray = beyond(ray, hit);
   }
   return outside;
@@ -48,7 +48,7 @@ bool Scene::may_cross_boundaries(const Emitter& light, size_t grouped) const {
 }
 
 void Scene::find_media(size_t grouped) {
-  media_.add(shapes_);
+  media_.add(shapes_, solids_.shapes());
   for (const EmitterPtr& light : emitters_) media_.add(light->medium());
   const MediumIndex declared = media_.add(camera_->medium());
   has_media_ = !media_.empty();

@@ -15,6 +15,8 @@ Schema shape_schema(const std::string& name, const std::string& doc,
   const Matrix identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   parameters.push_back({"to_world", ParamType::motion, identity, "From object to world space."});
   parameters.push_back({"flip_normals", ParamType::boolean, false, "Turn all normals around."});
+  parameters.push_back({"priority", ParamType::integer, no_default,
+                        "Where solids overlap, that of the highest priority is there; optional."});
   parameters.push_back({"bsdf", ParamType::object, no_default, "The material; optional."});
   parameters.push_back({"emitter", ParamType::object, no_default, "An area light; optional."});
   return {"shape",

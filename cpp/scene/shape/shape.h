@@ -62,6 +62,10 @@ class Shape : public Object {
   const BoundedMedia& media() const { return media_; }
   void set_media(BoundedMedia media) { media_ = std::move(media); }
 
+  /// Which of several solids that overlap is there: the one with the highest (Solids).
+  const std::optional<int64_t>& priority() const { return priority_; }
+  void set_priority(std::optional<int64_t> priority) { priority_ = priority; }
+
   const Bsdf& bsdf() const { return *bsdf_; }
   const BsdfPtr& bsdf_ptr() const { return bsdf_; }
   const Emitter* emitter() const { return emitter_.get(); }
@@ -78,6 +82,7 @@ class Shape : public Object {
   BsdfPtr bsdf_;
   EmitterPtr emitter_;
   BoundedMedia media_;
+  std::optional<int64_t> priority_;
   uint32_t index_ = SurfacePoint::no_shape;
 
  private:

@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 def read_foreign(path: str | os.PathLike[str]) -> Imported:
     """A scene of another program, with its meshes and images as arrays."""
     from .imported import Imported
+    from .solids import give_priorities
 
     made = Imported()
     source = Path(os.fspath(path))
     read_with(reader_of(source), source, made)
+    give_priorities(made.scene)
     return made
 
 

@@ -45,6 +45,11 @@ def pool(filter: str = "gaussian") -> dict:
     return _load("pool", filter=filter)
 
 
+def drink() -> dict:
+    """A full glass of water with ice and a straw: solids that overlap, by their priorities."""
+    return _load("drink")
+
+
 def ring(filter: str = "gaussian") -> dict:
     """A gold ring on paper below a small light: the caustic of a cylindrical mirror."""
     return _load("ring", filter=filter)

@@ -71,7 +71,9 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"beam", "ptracer"},
         Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}, Pair{"clipped", "path"},
         Pair{"clipped", "mlt"}, Pair{"clipped", "pssmlt"}, Pair{"clipped", "mmlt"},
-        Pair{"clipped_fog", "path"}, Pair{"clipped_fog", "mlt"}, Pair{"clipped_fog", "pssmlt"}),
+        Pair{"clipped_fog", "path"}, Pair{"clipped_fog", "mlt"}, Pair{"clipped_fog", "pssmlt"},
+        Pair{"solids", "path"}, Pair{"solids", "mlt"}, Pair{"solids", "pssmlt"},
+        Pair{"openpbr", "path"}, Pair{"openpbr", "mlt"}, Pair{"openpbr", "pssmlt_bdpt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};
@@ -85,7 +87,7 @@ std::vector<Pair> all_pairs() {
                           {"prism_beam", "mmlt"},
                           {"prism_beam", "rjmlt"}};
   std::vector<std::string> names = scene_names();
-  for (const char* clipped : {"clipped", "clipped_fog"}) names.push_back(clipped);
+  for (const char* more : {"clipped", "clipped_fog", "solids", "openpbr"}) names.push_back(more);
   for (const std::string& name : names) {
     for (const char* algorithm : {"path", "pssmlt", "pssmlt_bdpt", "mmlt", "rjmlt", "erpt"})
       pairs.push_back({name, algorithm});
