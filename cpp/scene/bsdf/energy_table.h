@@ -64,6 +64,29 @@ class EnergyTable {
   std::array<double, cosines * roughnesses> values_{};
 };
 
+/// Such a function where the roughness is the same everywhere.
+class EnergyRow {
+ public:
+  EnergyRow(const EnergyTable& table, double roughness) {
+    for (int i = 0; i < EnergyTable::cosines; ++i)
+      values_[i] = table.at(EnergyTable::cosine(i), roughness);
+  }
+  template <class F>
+  F at(F cosine) const {
+    const F x = min(sqrt(max(F(0), cosine)), F(1)) * number<F>(EnergyTable::cosines - 1);
+    const F first = min(floor(x), number<F>(EnergyTable::cosines - 2));
+    const auto node = [&](int next) {
+      return for_each_lane<F>(
+          [&](int lane) { return values_[static_cast<int>(lane_of(first, lane)) + next]; });
+    };
+    const F a = node(0), b = node(1);
+    return a + (x - first) * (b - a);
+  }
+
+ private:
+  std::array<double, EnergyTable::cosines> values_;
+};
+
 /// A function of the roughness alone, likewise.
 class RoughnessTable {
  public:

@@ -45,6 +45,11 @@ OpenPbrReflection::OpenPbrReflection(Params& params, Kind kind)
 void OpenPbrReflection::set_eta(double eta) {
   eta_ = eta == 1 && transmits_ ? 1.001 : eta;
   energy_ = InterfaceEnergy::of(eta_);
+  if (textures_.specular_roughness.is_constant() && !coated_) {
+    const double r = textures_.specular_roughness.mean();
+    gloss_row_.emplace(energy_->reflectance, r);
+    gloss_mean_ = energy_->mean.at(r);
+  }
   if (refracts_) glass_ = BalancedScales::of_glass(eta_);
   if (!textures_.thin_film_weight.vanishes()) {
     film_.emplace(1000 * textures_.thin_film_thickness, textures_.thin_film_ior, eta_);
@@ -80,7 +85,7 @@ OpenPbrPoint<F> OpenPbrReflection::point(const SurfacePoint* const* at) const {
 
 template <class F>
 F OpenPbrReflection::diffuse_scale(const Point<F>& p) const {
-  F left = 1 - p.gloss * energy_->mean.at(p.roughness);
+  F left = 1 - p.gloss * (gloss_row_ ? number<F>(gloss_mean_) : energy_->mean.at(p.roughness));
   if (coated_ || fuzzy_) {  // the Gauss-Legendre rule of 2 int_0^1 f(c) c dc
     constexpr std::array<double, 4> node = {0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558};
     constexpr std::array<double, 4> weight = {0.1739274226, 0.3260725774, 0.3260725774,
@@ -99,7 +104,7 @@ template <class F>
 OpenPbrShares<F> OpenPbrReflection::shares(const Point<F>& p, const Vec3Of<F>& w) const {
   return {fuzzy_ ? p.fuzz * fuzz_reflectance().at(w.z, p.fuzz_roughness) : F(0),
           coated_ ? p.coat * coat_energy_->reflectance.at(w.z, p.coat_roughness) : F(0),
-          p.gloss * energy_->reflectance.at(w.z, p.roughness)};
+          glossy_share(p, w.z)};
 }
 
 template <class F>

@@ -129,12 +129,19 @@ class OpenPbrReflection : public Bsdf {
 
  private:
   template <class F>
+  F glossy_share(const Point<F>& p, F cosine) const {
+    return p.gloss *
+           (gloss_row_ ? gloss_row_->at(cosine) : energy_->reflectance.at(cosine, p.roughness));
+  }
+  template <class F>
   F diffuse_scale(const Point<F>& p) const;
   Spectrum under_film(const Colors& colors, const Terms<double>& terms) const;
   Spectrum darkening(const SurfacePoint& at, const Spectrum& base, double weight) const;
 
   bool refracts_ = false;  ///< Whether it is a solid that light enters.
   bool thin_, coated_, fuzzy_, metallic_, rough_base_, stretched_, coat_tints_;
+  std::optional<EnergyRow> gloss_row_;  ///< The row of energy_, if the roughness is constant.
+  double gloss_mean_ = 0;               ///< Likewise.
   double metal_weight_, fuzz_weight_, mean_fresnel_ = 0, coat_mean_fresnel_ = 0;
   std::shared_ptr<const InterfaceEnergy> energy_, coat_energy_;
 };
