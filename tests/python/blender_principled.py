@@ -18,7 +18,7 @@ BALLS = {
         "Base_Color": GOLD,
         "Metallic": 1.0,
         "Roughness": 0.4,
-        "Specular_Tint": (0.4, 0.7, 1, 1),
+        "Specular_Tint": (0, 0.3, 1, 1),
     },
     "paint": {"Base_Color": BLUE, "Coat_Weight": 1.0, "Coat_Roughness": 0.05},
     "cloth": {
@@ -27,7 +27,7 @@ BALLS = {
         "Sheen_Weight": 1.0,
         "Sheen_Tint": (1, 0.9, 0.8, 1),
     },
-    "glass": {"Base_Color": (0.8, 0.95, 0.9, 1), "Transmission_Weight": 1.0, "Roughness": 0.3},
+    "glass": {"Base_Color": (0.4, 0.9, 0.7, 1), "Transmission_Weight": 1.0, "Roughness": 0.3},
     "wax": {
         "Base_Color": (0.8, 0.6, 0.4, 1),
         "Subsurface_Weight": 1.0,
