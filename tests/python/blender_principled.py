@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import bpy
-from blender_engine import ROOT, add, fresh, lamp, render
+from blender_engine import ROOT, add, fresh, lamp, render, values
 from blender_material import material
 from mathutils import Vector
 
@@ -54,14 +54,25 @@ BALLS = {
         "Coat_IOR": 2.0,
     },
 }
+METALLIC = {"Base Color": GOLD, "Edge Tint": (0, 0.3, 1, 1), "Roughness": 0.4, "Anisotropy": 0.8}
 
 
-def ball(values: dict) -> None:
+def metallic(made) -> None:
+    """Makes a material a Metallic BSDF, which is there since Blender 4.3."""
+    node = made.node_tree.nodes.new("ShaderNodeBsdfMetallic")
+    values(node, **METALLIC)
+    output = made.node_tree.nodes["Material Output"]
+    made.node_tree.links.new(node.outputs[0], output.inputs["Surface"])
+
+
+def ball(name: str) -> None:
     """A ball in the middle of the picture, on a grey floor below a sky and a lamp."""
     fresh(sky=8.0)
     floor = bpy.data.materials["floor"].node_tree.nodes["Principled BSDF"]
     floor.inputs["Base Color"].default_value = (0.4, 0.4, 0.4, 1)
-    made = material("ball", **values)
+    made = material("ball", **BALLS.get(name, {}))
+    if name == "metallic":
+        metallic(made)
     thing = add(bpy.ops.mesh.primitive_uv_sphere_add, made, segments=64, ring_count=32)
     thing.location = (0, 0, 1)
     thing.data.shade_smooth()
@@ -76,8 +87,8 @@ def main(folder: Path, side: int, names: list[str]) -> None:
     import blender
 
     blender.register()
-    for name in names or BALLS:
-        ball(BALLS[name])
+    for name in names or [*BALLS, *["metallic"] * (bpy.app.version >= (4, 3))]:
+        ball(name)
         cycles, pymlt = bpy.context.scene.cycles, bpy.context.scene.pymlt
         cycles.sample_clamp_indirect = cycles.blur_glossy = 0
         pymlt.path.rr_depth = 300  # since walks in wax are long

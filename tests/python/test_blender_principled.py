@@ -29,9 +29,12 @@ def rendered(tmp_path_factory) -> Path:
 @pytest.mark.parametrize(
     ("name", "most"),
     [("plastic", 0.05), ("metal", 0.05), ("paint", 0.05), ("cloth", 0.05), ("glass", 0.1),
-     ("wax", 0.08), ("film", 0.1), ("brushed", 0.05), ("tinted", 0.05), ("glowing", 0.05)],
+     ("wax", 0.08), ("film", 0.1), ("brushed", 0.05), ("tinted", 0.05), ("glowing", 0.05),
+     ("metallic", 0.05)],
 )  # fmt: skip
 def test_a_ball_is_that_of_cycles(rendered, name, most):
+    if not (rendered / f"{name}.exr").exists():
+        pytest.skip("Blender has no such shader")
     ours, theirs = (picture(rendered / f"{name}{kind}.exr") for kind in ("", "-cycles"))
     np.testing.assert_allclose(ours[BALL].mean(axis=0), theirs[BALL].mean(axis=0), rtol=most)
     # Highlights and colours that are elsewhere change more than that.
