@@ -5,14 +5,12 @@ from typing import NamedTuple
 from pymlt.formats.imported import Imported, rgb
 
 from . import bakes, surfaces
-from .coats import Coat
+from .principled import dimmed, lets_light_in, metallic, principled
 from .surfaces import blend, is_number, scaled, twosided
 from .textures import Textures, source
 from .volumes import Volumes
 
 BLACK = surfaces.diffuse(rgb([0, 0, 0]))
-UNCARRIED = ("Subsurface Weight", "Sheen Weight", "Anisotropic", "Thin Film Thickness",
-             "Diffuse Roughness")  # fmt: skip
 
 
 class Surface(NamedTuple):
@@ -31,6 +29,7 @@ class Materials:
         self._textures = Textures(made)
         self._volumes = Volumes(made)
         self._added: dict[tuple[str, str], Surface] = {}
+        self._is_mixed = False
         self.unknown: dict[str, list[tuple[str, str]]] = {}  #: sockets to be baked, by material
         self._shaders = {
             "BSDF_PRINCIPLED": self._principled,
@@ -114,36 +113,32 @@ class Materials:
         return twosided(self._bent(surface, node))
 
     def _principled(self, node) -> Surface:
-        sockets, number = node.inputs, self._textures.number
-        for name in UNCARRIED:
-            if name in sockets and self._textures.constant(sockets[name]):
-                self._made.warn(f"{name} of the Principled BSDF is left out")
-        colour, roughness = self._shine(node, "Base Color")
-        ior, coat = self._textures.constant(sockets["IOR"]), self._coat(node)
-        level = self._textures.constant(sockets["Specular IOR Level"])
-        scaled = surfaces.scaled_ior(ior, level)
-        made = self._opaque(coat.over_plastic(colour, roughness, scaled), node)
-        clear = coat.over(lambda tint: surfaces.glass(tint, roughness, ior), colour)
-        made = blend(number(sockets["Transmission Weight"]), made, self._bent(clear, node))
-        shiny = coat.over(lambda tint: surfaces.metal(tint, roughness), colour)
-        made = blend(number(sockets["Metallic"]), made, self._opaque(shiny, node))
-        opacity = number(sockets["Alpha"])
-        if not is_number(opacity) or opacity < 1:
-            made = {"type": "mask", "opacity": opacity, "bsdf": made}
-        glow = self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
-        return Surface(made, glow and coat.dimmed(glow))
-
-    def _coat(self, node) -> Coat:
-        """The coat of a Principled BSDF, which may have the weight 0."""
         sockets = node.inputs
-        weight = self._textures.number(sockets["Coat Weight"])
-        if is_number(weight) and weight <= 0:
-            return Coat(0.0, 0.0, 1.0, (1, 1, 1))
-        if any(self._textures.plugged(sockets[name]) for name in ("Normal", "Coat Normal")):
+        made = principled(node, self._textures)
+        if self._is_mixed and made.pop("subsurface_weight", 0):
+            self._made.warn("subsurface scattering of shaders that are mixed is left out")
+        bends = (self._textures.plugged(sockets[name]) for name in ("Normal", "Coat Normal"))
+        if made.get("coat_weight") and any(bends):
             self._made.warn("coats have the normals of what they cover")
-        roughness = self._textures.number(sockets["Coat Roughness"])
-        tint = tuple(self._textures.constant(sockets["Coat Tint"])[:3])
-        return Coat(weight, roughness, self._textures.constant(sockets["Coat IOR"]), tint)
+        bsdf, opacity = self._seen(made, node), self._textures.number(sockets["Alpha"])
+        if not is_number(opacity) or opacity < 1:
+            bsdf = {"type": "mask", "opacity": opacity, "bsdf": bsdf}
+        glow = self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
+        return Surface(bsdf, glow and dimmed(glow, made))
+
+    def _metallic(self, node) -> Surface:
+        if node.fresnel_type != "F82":
+            self._made.warn("metals have their Base Color and Edge Tint, not IOR and Extinction")
+        return Surface(self._seen(metallic(node, self._textures), node))
+
+    def _seen(self, made: dict, node) -> dict:
+        """With the normals that are plugged in, and from both sides."""
+        if made.get("specular_roughness_anisotropy"):
+            turned = "Rotation" if node.type == "BSDF_METALLIC" else "Anisotropic Rotation"
+            angle = self._textures.constant(node.inputs[turned])
+            if angle or self._textures.plugged(node.inputs["Tangent"]):
+                self._made.warn("highlights are stretched along the UV map alone")
+        return (self._bent if lets_light_in(made) else self._opaque)(made, node)
 
     def _diffuse(self, node) -> Surface:
         return Surface(self._opaque(surfaces.diffuse(self._textures.colour(node.inputs[0])), node))
@@ -155,9 +150,6 @@ class Materials:
             mirror = {"type": "conductor", "material": "none", "specular_reflectance": colour}
             return Surface(self._opaque(mirror, node))
         return Surface(self._opaque(surfaces.metal(colour, roughness), node))
-
-    def _metallic(self, node) -> Surface:
-        return Surface(self._opaque(surfaces.metal(*self._shine(node, "Base Color")), node))
 
     def _shine(self, node, colour: str) -> tuple:
         sockets = node.inputs
@@ -184,7 +176,9 @@ class Materials:
 
     def _mix(self, node) -> Surface:
         weight = self._textures.number(node.inputs[0])
+        before, self._is_mixed = self._is_mixed, True
         first, second = (self._shader(socket) for socket in node.inputs[1:3])
+        self._is_mixed = before
         share = weight if is_number(weight) else 0.5
         glow = first.radiance and scaled(first.radiance, 1 - share)
         glow = glow or (second.radiance and scaled(second.radiance, share))

@@ -1,8 +1,4 @@
-"""Closures of Blender's shaders, each as a BSDF of pymlt.
-
-The diffuse base of a dielectric has only the light that its interface does not reflect: in Cycles
-by the direction of view, here by the mean. Roughness is the root of alpha in both.
-"""
+"""Closures of Blender's shaders, each as a BSDF of pymlt."""
 
 import math
 
@@ -23,30 +19,10 @@ def diffuse(colour) -> dict:
     return {"type": "diffuse", "reflectance": colour}
 
 
-def plastic(colour, roughness, ior: float) -> dict:
-    """The opaque dielectric of Principled."""
-    if ior <= 1:
-        return diffuse(colour)
-    if is_number(roughness) and roughness**2 < SMOOTH:
-        return {"type": "plastic", "diffuse_reflectance": colour, "int_ior": ior, "ext_ior": 1.0}
-    base = scaled(colour, 1 - mean_reflectance(ior))
-    return {"type": "principled", "base_color": base, "roughness": roughness, "eta": ior}
-
-
 def mean_reflectance(ior: float) -> float:
     """Schlick's R_0 + (1 - R_0) (1 - cos)^5, integrated over the directions of even light."""
-    r = normal_reflectance(ior)
-    return r + (1 - r) / 21
-
-
-def normal_reflectance(ior: float) -> float:
-    return ((ior - 1) / (ior + 1)) ** 2
-
-
-def index_of(reflectance: float) -> float:
-    """The index of this reflectance along the normal."""
-    r = math.sqrt(reflectance)
-    return (1 + r) / (1 - r)
+    r = ((ior - 1) / (ior + 1)) ** 2
+    return r + (1 - r) / 21 if ior > 1 else 0.0
 
 
 def metal(colour, roughness) -> dict:
@@ -57,13 +33,16 @@ def metal(colour, roughness) -> dict:
 def glass(colour, roughness, ior: float) -> dict:
     """A refracting interface; light that enters and leaves is filtered by `colour`."""
     ior = max(ior, 1.001)
-    if not is_number(roughness):
-        made = {"base_color": colour, "roughness": roughness}
-        return {"type": "principled", "spec_trans": 1.0, "eta": ior, **made}
-    made = {"int_ior": ior, "ext_ior": 1.0, "specular_transmittance": root(colour)}
-    if roughness**2 < SMOOTH:
+    if is_number(roughness) and roughness**2 < SMOOTH:
+        made = {"int_ior": ior, "ext_ior": 1.0, "specular_transmittance": root(colour)}
         return {"type": "dielectric", **made}
-    return {"type": "roughdielectric", "distribution": "ggx", "alpha": roughness**2, **made}
+    made = {"specular_ior": ior, "specular_roughness": roughness}
+    return {
+        "type": "openpbr",
+        "transmission_weight": 1.0,
+        "transmission_color": root(colour),
+        **made,
+    }
 
 
 def root(colour: dict) -> dict:
@@ -92,8 +71,3 @@ def blend(weight, first: dict, second: dict) -> dict:
     if is_number(weight) and weight >= 1:
         return second
     return {"type": "blendbsdf", "weight": weight, "first": first, "second": second}
-
-
-def scaled_ior(ior: float, level: float) -> float:
-    """The index of which the reflectance along the normal is 2 `level` times that of `ior`."""
-    return index_of(min(2 * max(level, 0) * normal_reflectance(ior), 0.98))

@@ -219,10 +219,10 @@ def moving():
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = 1, 3
 
 
-def render(path, engine, **how):
+def render(path, engine, size=SIZE, **how):
     scene = bpy.context.scene
     scene.render.engine = engine
-    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    scene.render.resolution_x, scene.render.resolution_y = size
     scene.render.resolution_percentage = 100
     scene.cycles.samples = SAMPLES
     scene.cycles.volume_bounces = 12

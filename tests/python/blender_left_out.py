@@ -25,7 +25,8 @@ def rich():
     noise = tree.nodes.new("ShaderNodeTexNoise")
     principled = tree.nodes["Principled BSDF"]
     tree.links.new(noise.outputs["Color"], principled.inputs["Base Color"])
-    principled.inputs["Sheen Weight"].default_value = 0.5
+    for name in ("Anisotropic", "Anisotropic Rotation"):
+        principled.inputs[name].default_value = 0.5
     principled.inputs["Emission Strength"].default_value = 0.5
     cube = add(bpy.ops.mesh.primitive_cube_add, bpy.data.materials["noise"])
     cube.visible_shadow = False
