@@ -58,9 +58,8 @@ def test_a_scene_of_blender_is_seen_as_blender_sees_it(exported, name):
 @pytest.mark.filterwarnings("ignore:.*spot light falls off")
 def test_a_scene_is_as_bright_as_in_cycles(exported, lamp):
     theirs = mlt.read_image(exported / f"{lamp}.exr")[..., :3]
-    # Ours is some 8 % brighter: `principled` does not take what is specular from the rest.
     ours = mlt.render(mlt.load(exported / f"{lamp}.glb", size=(64, 36)), "path", spp=64, seed=1)
-    assert brightness(ours, theirs) == pytest.approx(1, rel=0.1)
+    assert brightness(ours, theirs) == pytest.approx(1, rel=0.05)
 
 
 #: Blender writes a quarter of the strength of suns.

@@ -164,6 +164,13 @@ def test_a_denoised_render_tells_its_error(box, reference, integrator):
     assert f"denoised {100 * result.stats['denoised_error']:.2g} %" in repr(result)
 
 
+def test_an_image_alone_is_denoised_as_well(box):
+    given = {"spp": 32, "seed": 1, "denoise": True}
+    image = mlt.render(box, "path", **given)
+    assert np.array_equal(image, mlt.start(box, "path", **given).result().image)
+    assert not np.array_equal(image, mlt.render(box, "path", spp=32, seed=1))
+
+
 def test_an_error_budget_is_that_of_the_denoised_image(box, reference):
     results = [
         mlt.start(box, "path", error=0.06, seed=1, threads=threads, denoise=True).result()

@@ -71,10 +71,17 @@ def primitive(**changed) -> dict:
 
 
 def emitting(strength) -> dict:
-    name = "KHR_materials_emissive_strength"
-    extension = {name: {"emissiveStrength": strength}}
-    material = {"emissiveFactor": [1, 1, 1], "extensions": extension}
+    return extended("emissive_strength", {"emissiveStrength": strength})
+
+
+def extended(name: str, given) -> dict:
+    """A triangle that glows, whose material has an extension."""
+    material = {"emissiveFactor": [1, 1, 1], "extensions": {f"KHR_materials_{name}": given}}
     return primitive(material=0) | {"materials": [material]}
+
+
+def coated(texture) -> dict:
+    return extended("clearcoat", {"clearcoatFactor": 1, "clearcoatTexture": texture})
 
 
 GLTF = {
@@ -121,6 +128,9 @@ GLTF = {
     "name": (gltf(nodes=[{"mesh": 0, "name": 7}]), "name is 7, but should be a text"),
     "light": (light(intensity="a", color=[10**9] * 3), "should be a number"),
     "glow": (emitting("a"), "emissiveStrength is 'a', but should be a number"),
+    "extension": (extended("sheen", [1]), "KHR_materials_sheen is [1], but should be an object"),
+    "texture": (coated(3), "clearcoatTexture is 3, but should be an object"),
+    "no texture": (coated({}), "texture None is not among the 0 of the file"),
     "a list": ([], "no glTF 2.0 file"),
     "other version": (gltf(asset={"version": "1.0"}), "no glTF 2.0 file"),
 }

@@ -404,6 +404,7 @@ MATERIALS = {
                 "distribution": "ggx",
                 "alpha": 0.1,
                 "material": "Cu",
+                "ext_eta": 1.5,
             },
         }
     ),

@@ -54,10 +54,14 @@ def test_a_metal_by_name_has_the_index_of_the_table(metal):
     np.testing.assert_allclose(found, reflected(*METALS[metal]), rtol=2e-3)
 
 
-def test_a_coating_lets_a_metal_of_files_shine_through():
+@pytest.mark.parametrize("index", [1, 1.5])
+def test_a_coating_lets_a_metal_of_files_shine_through(index):
+    """Light meets the metal in the coating: its index is that over the coating's."""
     files = '"spectrum conductor.eta" "eta.spd" "spectrum conductor.k" "k.spd"'
-    index = '"float interface.eta" 1'
-    assert_close(in_the_open(f'Material "coatedconductor" {files} {index}', spp=4), 10 / 18)
+    given = f'Material "coatedconductor" {files} "float interface.eta" {index}'
+    mirrored = reflected(index, 0)
+    expected = mirrored + (1 - mirrored) ** 2 * reflected(2 / index, 3 / index)
+    assert_close(in_the_open(given, spp=4), expected)
 
 
 def test_any_spectrum_may_be_a_file():

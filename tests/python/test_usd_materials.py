@@ -336,10 +336,10 @@ def test_images_of_materialx():
 
 
 def test_what_is_not_read_is_named():
-    standard = painted("", kind="ND_standard_surface_surfaceshader")
-    said = "materials made of 'ND_standard_surface_surfaceshader' are left out: they become grey"
-    assert said in standard.warnings
-    assert standard.scene["square"]["bsdf"]["bsdf"]["type"] == "diffuse"
+    disney = painted("", kind="ND_disney_principled")
+    said = "materials made of 'ND_disney_principled' are left out: they become grey"
+    assert said in disney.warnings
+    assert disney.scene["square"]["bsdf"]["bsdf"]["type"] == "diffuse"
     noise = 'def Shader "image" {\nuniform token info:id = "ND_noise"\nfloat3 outputs:rgb\n}\n'
     assert "shaders of the kind 'ND_noise' are left out" in painted(DIFFUSE, noise).warnings
     deep = painted("float inputs:displacement = 1")

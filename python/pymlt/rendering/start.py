@@ -118,9 +118,11 @@ def render(
     except BaseException:
         job.cancel()
         raise
-    if not options.alpha:
+    if not (options.alpha or options.denoise):
         return job.image
     result = job.result()
+    if not options.alpha:
+        return result.image
     return np.concatenate([result.image, result.layers["alpha"]], axis=2)
 
 

@@ -96,7 +96,7 @@ def texture_info(given: Any, name: str) -> Any:
     if given is None:
         return None
     check_types(given, dict[str, Any], name)
-    info = SimpleNamespace(**{"texCoord": None, "extensions": None} | given)
+    info = SimpleNamespace(**{"index": None, "texCoord": None, "extensions": None} | given)
     check_types(info.texCoord, int, f"{name}.texCoord")
     check_types(info.extensions, dict[str, Any], f"{name}.extensions")
     return info

@@ -2,17 +2,18 @@
 
 A blend of a dielectric, whose grey reflectance at normal incidence is g, with a metal of the share
 w = (M - g) / (1 - g) and the colour b, where (1 - w) g + w b is the specular colour and M its
-greatest channel. The dielectric's base colour is 1 - g times the diffuse colour, so that the blend
-has 1 - M of it, as in the extension; at grazing angles both reflect all light.
+greatest channel. What the dielectric reflects is missing below it, so that the blend has 1 - M of
+the diffuse colour, as in the extension; at grazing angles both reflect all light.
 """
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from ..imported import Imported
 from .checked import number, numbers, texture_info
-from .dielectrics import index_of
+from .layers import GREATEST_INDEX
 from .textures import Textures
 
 if TYPE_CHECKING:
@@ -37,11 +38,11 @@ def specular_glossy(
     colour, roughness = specular_and_roughness(given, info, textures)
     grey = float(min(max(GREY, colour.min()), colour.max()))
     share, metal = metallic_part(colour, grey, made)
-    rough = {"type": "principled", "roughness": textures.made_of(roughness, info)}
+    rough = {"type": "openpbr", "specular_roughness": textures.made_of(roughness, info)}
     factor, image = diffuse(given)
-    base = textures.colour(image, [(1 - grey) * c for c in factor[:3]], of_vertices=of_vertices)
-    dielectric = rough | {"metallic": 0.0, "eta": index_of(grey), "base_color": base}
-    shining = rough | {"metallic": 1.0, "base_color": textures.made_of(metal, info)}
+    base = textures.colour(image, factor, of_vertices=of_vertices)
+    dielectric = rough | {"specular_ior": index_of(grey), "base_color": base}
+    shining = rough | {"base_metalness": 1.0, "base_color": textures.made_of(metal, info)}
     if not share.any():
         return dielectric
     if share.min() == 1:
@@ -72,3 +73,9 @@ def metallic_part(colour: np.ndarray, grey: float, made: Imported) -> tuple[np.n
     if ((1 - share) * grey + share * metal - colour).max() > NOTABLE:
         made.warn(f"specular colours below {GREY} are raised, to {GREY} at most")
     return share, metal
+
+
+def index_of(reflectance: float) -> float:
+    """The index above 1 that has a reflectance at normal incidence."""
+    root = math.sqrt(max(reflectance, 0.0))
+    return min((1 + root) / (1 - root), GREATEST_INDEX) if root < 1 else GREATEST_INDEX

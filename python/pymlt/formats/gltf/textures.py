@@ -61,8 +61,20 @@ class Textures:
             return factor
         key = (self._texture(info).source, channel, factor)
         if key not in self._channels:
-            self._channels[key] = factor * self._samples(info)[..., channel]
+            self._channels[key] = factor * self.numbers(info, channel)[..., 0]
         return self._bitmap(info, self._channels[key]) | {"raw": True}
+
+    def numbers(self, info: Any, channel: int) -> np.ndarray:
+        """One channel of a texture of numbers, (height, width, 1); a 1 alone without a texture.
+
+        The channels of a grey image are the same.
+        """
+        import numpy as np
+
+        if info is None:
+            return np.ones((1, 1, 1))
+        samples = self._samples(info)
+        return samples[..., [channel if samples.shape[2] > 2 else 0]]
 
     def opacity(self, info: Any, factor: float, cutoff: float | None) -> float | dict[str, Any]:
         """Alpha times a factor; with a cutoff it is 0 or 1."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from ... import _core
 from ...images import read_image
 from ...pictures.tonemapping import encode_srgb, split_alpha
 from ..limits import check_pixels
@@ -84,6 +86,7 @@ def wrapped(index: np.ndarray, count: int, mode: str) -> np.ndarray:
 class Images:
     """The images of a document, each read once for a material, and those that are missing."""
 
+    contents: Mapping[str, bytes] = field(default_factory=dict)  #: files in memory, by their paths
     missing: dict[str, str] = field(default_factory=dict)  #: and where they are named
     _read: dict[tuple[str, str, str], np.ndarray] = field(default_factory=dict)
 
@@ -93,13 +96,19 @@ class Images:
         Raises FileError for what is no image.
         """
         file = lookup.file
-        if is_missing(file.path):
+        content = self.contents.get(str(file.path))
+        if content is None and is_missing(file.path):
             self.missing.setdefault(f"{file.path}: {ABSENT}", file.place)
             return None
         key = key_of(lookup)
         if key not in self._read:
-            self._read[key] = channels_of(lookup, linear).astype(np.float32)
+            self._read[key] = channels_of(lookup, linear, content).astype(np.float32)
         return self._read[key]
+
+    def source(self, file: File) -> dict[str, Any]:
+        """The parameter of a `bitmap` that shows a file."""
+        content = self.contents.get(str(file.path))
+        return {"filename": str(file.path)} if content is None else {"data": content}
 
     def forget(self) -> None:
         """Frees the pixels; images are read again where they are needed again."""
@@ -116,9 +125,11 @@ def key_of(lookup: Lookup) -> tuple[str, str, str]:
     return str(lookup.file.path), lookup.kind, lookup.file.space
 
 
-def channels_of(lookup: Lookup, linear: Linear) -> np.ndarray:
+def channels_of(lookup: Lookup, linear: Linear, content: bytes | None) -> np.ndarray:
     """The channels of a file that an image node has: one, two, three, or four with alpha."""
-    colours, alpha = split_alpha(read_image(lookup.file.path))
+    path = lookup.file.path
+    image = read_image(path) if content is None else _core.decode_image(content, str(path))
+    colours, alpha = split_alpha(image)
     check_pixels(colours, str(lookup.file.path))
     space = canonical(lookup.file.space) if lookup.kind.startswith("color") else ""
     if lookup.kind.startswith("color") and colours.shape[2] == 1:

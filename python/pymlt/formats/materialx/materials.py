@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -39,12 +40,12 @@ THICKEST = 20.0  #: micrometres of a thin film
 
 
 class Materials:
-    """The materials of a document."""
+    """The materials of a document; `contents` are files in memory, by their paths."""
 
-    def __init__(self, document: Any, made: Imported):
+    def __init__(self, document: Any, made: Imported, contents: Mapping[str, bytes] | None = None):
         self._document = document
         self._made = made
-        self.textures = Textures(document)
+        self.textures = Textures(document, contents)
 
     def read(self) -> dict[str, dict[str, Any]]:
         """By name: what a shape with the material has, a `bsdf` and perhaps an `emitter`."""
@@ -165,6 +166,6 @@ def range_of(declared: Any) -> tuple[float, float]:
 def uniform(bitmap: dict[str, Any]) -> list[float] | None:
     """The numbers of a computed texture whose texels are all the same, such as alpha of none."""
     data = bitmap.get("data")
-    if data is None or not (data == data[0, 0]).all():
+    if not isinstance(data, np.ndarray) or not (data == data[0, 0]).all():
         return None
     return np.atleast_1d(data[0, 0]).astype(float).tolist()

@@ -6,7 +6,7 @@ a `bitmap` of its file. All else is computed on a grid of texture coordinates, t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -32,9 +32,9 @@ NATIVE = (".png", ".jpg", ".jpeg", ".exr", ".hdr", ".tga", ".bmp")  #: files tha
 class Textures:
     """The textures of a document."""
 
-    def __init__(self, document: Any):
+    def __init__(self, document: Any, contents: Mapping[str, bytes] | None = None):
         self._document = document
-        self.images = Images()
+        self.images = Images(contents or {})
 
     def constant(self, pattern: Pattern) -> list[float] | None:
         """The numbers of what is the same everywhere; None for what is not."""
@@ -97,7 +97,7 @@ class Textures:
         decoding = "raw" if raw else lookup.decoding
         if decoding is None:
             return None
-        bitmap: dict[str, Any] = {"type": "bitmap", "filename": str(lookup.file.path)}
+        bitmap = {"type": "bitmap", **self.images.source(lookup.file)}
         if decoding:
             bitmap["raw"] = True
         return bitmap | placed(affine) | continued([use])

@@ -84,6 +84,8 @@ def coated_conductor(params: Params, textures: Textures) -> dict[str, Any]:
         params.warn("the roughness of coatings of conductors is left out")
     inner = conductor(params, textures, "conductor.")
     eta = index(params, 1.5, "interface.eta")
+    if isinstance(eta, float | str) and "specular_reflectance" not in inner:
+        inner["ext_eta"] = eta  # light meets the metal in the coating
     return {"type": "coating", "int_ior": eta, "bsdf": inner}
 
 

@@ -17,23 +17,23 @@ class Textures:
     """The inputs of one material."""
 
     def __init__(self, node: Node, made: Imported):
-        self._node = node
+        self.node = node
         self._made = made
         self.uv: str | None = None  #: the primvar that its textures use
         self.of_vertices = False  #: whether it uses the colours of vertices
 
     def value(self, name: str, default: Any) -> Any:
         """An input that cannot be a texture, which is warned of."""
-        if self._node.source(name) is not None:
+        if self.node.source(name) is not None:
             self._made.warn(f"textures of {name!r} are left out")
-        return self._node.value(name, default)
+        return self.node.value(name, default)
 
     def is_textured(self, name: str) -> bool:
-        return self._node.source(name) is not None
+        return self.node.source(name) is not None
 
     def is_given(self, name: str) -> bool:
         """Whether a file says anything of an input."""
-        given = self._node.shader.GetInput(name)
+        given = self.node.shader.GetInput(name)
         return bool(given) and (given.Get() is not None or self.is_textured(name))
 
     def number(self, name: str, default: float) -> float | dict[str, Any]:
@@ -55,7 +55,7 @@ class Textures:
 
     def colour(self, name: str, default: Any, most: float = 1.0) -> dict[str, Any]:
         """A colour from 0 to `most`, a texture of colours, or the colours of vertices."""
-        source = self._node.source(name)
+        source = self.node.source(name)
         if source is not None and reads_colours(source):
             self.of_vertices = True
             return VERTEX_COLOURS
@@ -81,7 +81,7 @@ class Textures:
 
     def normals(self, name: str) -> dict[str, Any] | None:
         """A texture of normals, from 0 to 1, if there is one."""
-        source = self._node.source(name)
+        source = self.node.source(name)
         found = None if source is None or is_plain(source) else self._read(source)
         if source is None or found is None:
             return None
@@ -94,22 +94,26 @@ class Textures:
         return found.bitmap() if values is None else found.made_of((values + 1) / 2)
 
     def _image(self, name: str) -> Image | None:
-        source = self._node.source(name)
+        source = self.node.source(name)
         return None if source is None else self._read(source)
 
     def _read(self, source: Node) -> Image | None:
         found = image(source, self._made)
         if found is not None:
-            if self.uv not in (None, found.uv):
-                self._made.warn("second texture coordinates of a material are left out")
-            self.uv = self.uv or found.uv
+            self.take_uv(found.uv)
         return found
+
+    def take_uv(self, primvar: str) -> None:
+        """Notes the primvar that holds the texture coordinates, of which there is one."""
+        if self.uv not in (None, primvar):
+            self._made.warn("second texture coordinates of a material are left out")
+        self.uv = self.uv or primvar
 
     def _fallback(self, name: str, default: Any, count: int = 1) -> Any:
         """The value of an input without an image: its own, or that of a texture without a file."""
-        source = self._node.source(name)
+        source = self.node.source(name)
         if source is None:
-            return self._node.value(name, default)
+            return self.node.value(name, default)
         if source.id != "UsdUVTexture":
             return default
         given = source.numbers("fallback", [0, 0, 0, 1])
