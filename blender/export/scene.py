@@ -6,6 +6,7 @@ import numpy as np
 
 import pymlt as mlt
 from pymlt.formats.imported import Imported
+from pymlt.formats.solids import give_priorities
 
 from . import bakes, camera, meshes, omissions, world
 from .lights import is_seen, lamp
@@ -20,6 +21,7 @@ def export(depsgraph, sensor: dict, motion: Motion | None = None) -> Imported:
     if surroundings := world.light(depsgraph.scene.world, made):
         made.add("world", surroundings)
     Objects(made, motion or Motion(), depsgraph.scene).add_all(depsgraph)
+    give_priorities(made.scene)
     return made
 
 

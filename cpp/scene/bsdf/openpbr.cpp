@@ -123,7 +123,12 @@ class OpenPbr final : public OpenPbrReflection {
   double reflected_by_facets(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
                              double cos_h) const {
     if (from.z > 0) return reflected_share(p, reflectance(cos_h));
-    return fresnel_dielectric(cos_h, eta(at)).reflectance;
+    const Fresnel F = fresnel_dielectric(cos_h, eta(at));
+    return F.reflectance + (1 - F.reflectance) * reflected_back(p, F.cos_t);
+  }
+  /// What coat and fuzz reflect back of light that leaves the solid below them.
+  double reflected_back(const Point<double>& p, double cosine) const {
+    return 1 - shares(p, Vec3(0, 0, std::abs(cosine))).under_coat();
   }
 
   /// The densities of `to`, lobe by lobe.
@@ -165,10 +170,13 @@ class OpenPbr final : public OpenPbrReflection {
     const double D = p.facets.D(facet.h), cosines = std::abs(wl.z * wc.z),
                  G = p.facets.g1(wl, facet.h) * p.facets.g1(wc, facet.h);
     const double scaled = scale(glass_->below, p, down);
-    const Spectrum F = film_reflectance(c, facet, up);
-    if (facet.reflects)
-      return F * ((1 - p.metalness) * leaves(at) * scaled * scale(glass_->below, p, up) * D * G /
-                  (4 * cosines));
+    const double in_air = cosine_in_air(facet, up);
+    const Spectrum F = facet.F == 1 ? Spectrum(1) : interface_reflectance(c, in_air, facet.F);
+    if (facet.reflects) {
+      const Spectrum back = reflected_back(p, in_air) * through_coat(c, 2 / cosine_in_coat(in_air));
+      return (F + (Spectrum(1) - F) * back) * ((1 - p.metalness) * leaves(at) * scaled *
+                                               scale(glass_->below, p, up) * D * G / (4 * cosines));
+    }
     const double T = textures_.transmission_weight.eval(at);
     const double other = wl.z > 0 ? p.enters - T : leaves(at) - T;
     const Spectrum weight = textures_.tints_glass
@@ -178,12 +186,10 @@ class OpenPbr final : public OpenPbrReflection {
     return weight * (Spectrum(1) - F) * through_coat(c, 1 / cosine_in_coat(up.z)) *
            ((1 - p.metalness) * passed * D * G * refraction_jacobian(facet, wl, wc) / cosines);
   }
-  /// The facet's reflectance with that of the film, which depends on the cosine in air.
-  Spectrum film_reflectance(const Colors& c, const GlassFacet& facet, const Vec3& up) const {
+  /// The cosine above the facet of light that it scatters.
+  static double cosine_in_air(const GlassFacet& facet, const Vec3& up) {
     const double cosine = std::abs(dot(up, facet.h));
-    const double in_air =
-        up.z > 0 ? cosine : std::abs(fresnel_dielectric(-cosine, facet.eta).cos_t);
-    return facet.F == 1 ? Spectrum(1) : interface_reflectance(c, in_air, facet.F);
+    return up.z > 0 ? cosine : std::abs(fresnel_dielectric(-cosine, facet.eta).cos_t);
   }
   static std::optional<BsdfSample> usable(const Vec3& from, const Vec3& to, bool reflects) {
     if (to.z == 0 || same_side(from, to) != reflects) return std::nullopt;

@@ -53,9 +53,10 @@ Spectrum OpenPbrReflection::darkening(const SurfacePoint& at, const Spectrum& ba
   const OpenPbrTextures& t = textures_;
   const double eta = t.coat_ior, F0 = sqr((eta - 1) / (eta + 1));
   const double r = t.specular_roughness.eval(at), M = t.base_metalness.eval(at);
-  const double smooth = 1 - (1 - r) * (M + (1 - M) * sqr((eta_ - 1) / (eta_ + 1)));
-  const double rough = 1 - (1 - coat_mean_fresnel_) / sqr(eta), K = F0 + smooth * (rough - F0);
   const double T = t.transmission_weight.eval(at), S = t.subsurface_weight.eval(at);
+  const double F = sqr((eta_ - 1) / (eta_ + 1)), mirrors = M + (1 - M) * (F + (1 - F) * T);
+  const double smooth = 1 - (1 - r) * mirrors;
+  const double rough = 1 - (1 - coat_mean_fresnel_) / sqr(eta), K = F0 + smooth * (rough - F0);
   const Spectrum opaque = S > 0 ? lerp(base, t.subsurface_color->eval(at), S) : base;
   const Spectrum albedo = (M + (1 - M) * (1 - T)) * lerp(opaque, base, M);
   const Spectrum left = Spectrum(1 - K) / (Spectrum(1) - K * albedo);
@@ -70,10 +71,7 @@ Spectrum OpenPbrReflection::value(const Colors& c, const Terms<double>& t) const
   base += t.gloss * c.specular * glossy;
   if (t.metal > 0) {
     Spectrum F = c.metal.at(t.angle);
-    if (c.film_weight > 0) {
-      const Spectrum below = c.metal.at(MetalAngle<double>(film_->cosine_inside(t.cos_h)));
-      F = lerp(F, film_->metal(t.cos_h, c.wavelength, below), c.film_weight);
-    }
+    if (c.film_weight > 0) F = lerp(F, film_->metal(t.cos_h, c.wavelength, F), c.film_weight);
     base += t.metal * F * (Spectrum(1) + t.metal_again * c.metal.mean());
   }
   if (c.coat_weight > 0) {

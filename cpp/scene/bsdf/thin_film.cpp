@@ -25,6 +25,12 @@ double airy(double r12, double r23, double cos_phase) {
   return (sqr(r12) + sqr(r23) + both) / (1 + sqr(product) + both);
 }
 
+/// The amplitude below a film which, with r12 above it and no film between them, makes r.
+double bottom_amplitude(double r, double r12) {
+  const double product = std::min(r * r12, 1 - 1e-9);
+  return std::clamp((r - r12) / (1 - product), -1.0, 1.0);
+}
+
 /// The cosine behind an interface with n = n2 / n1; 0 under total reflection.
 double refracted_cosine(double cosine, double n) {
   return std::sqrt(std::max(0.0, 1 - (1 - sqr(cosine)) / sqr(n)));
@@ -58,8 +64,8 @@ ThinFilm::ThinFilm(double nanometres, double film, double base)
     const double cosine = static_cast<double>(i) / (cosines - 1);
     dielectric_[i] = colour_of([&](double nm) { return dielectric_at(cosine, nm); });
     for (int k = 0; k < levels; ++k) {
-      const double below = sqr(static_cast<double>(k) / (levels - 1));
-      metal_[i][k] = colour_of([&](double nm) { return metal_at(cosine, nm, below); });
+      const double bare = sqr(static_cast<double>(k) / (levels - 1));
+      metal_[i][k] = colour_of([&](double nm) { return metal_at(cosine, nm, bare); });
     }
   }
 }
@@ -79,12 +85,15 @@ double ThinFilm::dielectric_at(double cosine, double nm) const {
   return 0.5 * (airy(top.s, bottom.s, cos_phase) + airy(top.p, bottom.p, cos_phase));
 }
 
-double ThinFilm::metal_at(double cosine, double nm, double below) const {
+double ThinFilm::metal_at(double cosine, double nm, double bare) const {
   const double inside = cosine_inside(cosine);
   if (!(inside > 0)) return 1;
   const Amplitudes top(1, cosine, film_, inside);
-  const double bottom = -std::sqrt(below), cos_phase = std::cos(path(cosine) / nm);
-  return 0.5 * (airy(top.s, bottom, cos_phase) + airy(top.p, bottom, cos_phase));
+  const double cos_phase = std::cos(path(cosine) / nm);
+  const auto polarised = [&](double r12) {
+    return airy(r12, bottom_amplitude(-std::sqrt(bare), r12), cos_phase);
+  };
+  return 0.5 * (polarised(top.s) + polarised(top.p));
 }
 
 Spectrum ThinFilm::dielectric(double cosine, double wavelength) const {
@@ -102,10 +111,10 @@ Spectrum ThinFilm::mean(double wavelength) const {
   return sum / steps;
 }
 
-Spectrum ThinFilm::metal(double cosine, double wavelength, const Spectrum& below) const {
-  if (is_single(wavelength)) return Spectrum(metal_at(cosine, wavelength, below[0]));
+Spectrum ThinFilm::metal(double cosine, double wavelength, const Spectrum& bare) const {
+  if (is_single(wavelength)) return Spectrum(metal_at(cosine, wavelength, bare[0]));
   if (wavelength >= 0)
-    return lane_by_lane(wavelengths::look_up(wavelengths::tables.nm, wavelength), below,
+    return lane_by_lane(wavelengths::look_up(wavelengths::tables.nm, wavelength), bare,
                         [&](double nm, double r) { return metal_at(cosine, nm, r); });
   const NodePlace at(cosine, cosines);
   const auto channel = [&](int c, double r) {
@@ -115,7 +124,7 @@ Spectrum ThinFilm::metal(double cosine, double wavelength, const Spectrum& below
     };
     return glm::mix(row(at.first), row(at.first + 1), at.within);
   };
-  return Spectrum(Color(channel(0, below[0]), channel(1, below[1]), channel(2, below[2])));
+  return Spectrum(Color(channel(0, bare[0]), channel(1, bare[1]), channel(2, bare[2])));
 }
 
 }  // namespace mlt

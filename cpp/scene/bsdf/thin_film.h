@@ -21,23 +21,23 @@ class ThinFilm {
   Spectrum dielectric(double cosine, double wavelength) const;
   /// Its mean for diffuse light.
   Spectrum mean(double wavelength) const;
-  /// A film on a metal, whose reflectance inside of the film is `below`. A metal shifts the
-  /// phase by half of a wave.
-  Spectrum metal(double cosine, double wavelength, const Spectrum& below) const;
-  /// The cosine of that light inside of the film.
-  double cosine_inside(double cosine) const;
+  /// That of a film on a metal, which has the reflectance `bare` for such light without the film:
+  /// it is taken for that of a real amplitude, which the film's index changes below the film.
+  Spectrum metal(double cosine, double wavelength, const Spectrum& bare) const;
 
  private:
   static constexpr int cosines = 64, levels = 16;
 
+  /// The cosine inside of the film.
+  double cosine_inside(double cosine) const;
   /// Twice the optical path through the film, in radians at 1 nm.
   double path(double cosine) const;
   double dielectric_at(double cosine, double nm) const;
-  double metal_at(double cosine, double nm, double below) const;
+  double metal_at(double cosine, double nm, double bare) const;
 
   double nanometres_, film_, base_;
   std::array<Color, cosines> dielectric_;                 ///< In RGB.
-  std::array<std::array<Color, levels>, cosines> metal_;  ///< Likewise, by sqrt(below).
+  std::array<std::array<Color, levels>, cosines> metal_;  ///< Likewise, by sqrt(bare).
 };
 
 }  // namespace mlt

@@ -81,6 +81,18 @@ TEST(OpenPbr, ThinWallsAreWhiteInAWhiteFurnace) {
   expect_white({thin, {"subsurface_weight", 1.0}, {"subsurface_color", 1.0}}, true, 0.01);
 }
 
+TEST(OpenPbr, CoatedGlassKeepsItsLight) {
+  const BsdfPtr glass = make_bsdf("openpbr", {{"transmission_weight", 1.0},
+                                              {"specular_roughness", 0.05},
+                                              {"coat_weight", 1.0},
+                                              {"coat_roughness", 0.05}});
+  for (double cosine : {1.0, 0.5, -0.5, -0.9, -1.0}) {
+    const double share = scattered_share(*glass, direction(cosine), 1 << 16)[0];
+    EXPECT_GT(share, 0.97) << cosine;
+    EXPECT_LT(share, 1.004) << cosine;
+  }
+}
+
 TEST(OpenPbr, MetalsHaveTheirTintAtTheCosineOfOneSeventh) {
   const Spectrum f0(0.9, 0.6, 0.3, 0.6), tint(0.5, 0.7, 0.9, 0.7);
   const double w = std::pow(6. / 7, 5);
@@ -129,6 +141,13 @@ TEST(OpenPbr, AFilmOfTheIndexOfItsBaseIsNotSeen) {
     EXPECT_NEAR(film.dielectric(cosine, 550)[0], F, 1e-12);
   }
   EXPECT_NEAR(film.dielectric(1, rgb_lanes)[0], 0.04, 1e-9);
+}
+
+TEST(OpenPbr, AFilmWithoutThicknessOnAMetalIsNotSeen) {
+  const ThinFilm film(0, 1.4, 1.5);
+  for (double cosine : {0.1, 0.5, 1.0})
+    for (double bare : {0.1, 0.5, 0.9})
+      EXPECT_NEAR(film.metal(cosine, 550, Spectrum(bare))[0], bare, 1e-9) << cosine;
 }
 
 /// A quarter of a wave, with the index sqrt(n): no reflection (Born & Wolf, sec. 1.6.4).
