@@ -24,10 +24,10 @@ OpenPbrReflection::Colors OpenPbrReflection::colors(const SurfacePoint& at) cons
     c.enters = t.transmission_weight.eval(at);
     c.within = t.transmission_color->eval(at);
   }
-  const double sigma = t.base_diffuse_roughness.eval(at);
-  c.rho_again = rough_base_ ? multiply_scattered(
-                                  c.rho, EnergyPreservingOrenNayar<double>(sigma).mean_albedo())
-                            : c.rho;
+  if (rough_base_) {
+    const EnergyPreservingOrenNayar<double> diffuse(t.base_diffuse_roughness.eval(at));
+    c.rho_again = multiply_scattered(c.rho, diffuse.mean_albedo());
+  }
   c.specular = t.specular_color->eval(at);
   if (metallic_) c.metal = MetalColors(c.rho, c.specular);
   if (fuzzy_) c.fuzz = t.fuzz_color->eval(at);
@@ -64,11 +64,16 @@ Spectrum OpenPbrReflection::darkening(const SurfacePoint& at, const Spectrum& ba
 }
 
 Spectrum OpenPbrReflection::value(const Colors& c, const Terms<double>& t) const {
-  Spectrum base = t.diffuse_once * c.rho + t.diffuse_twice * c.rho_again;
+  Spectrum base = t.diffuse_once * c.rho;
+  if (rough_base_) base += t.diffuse_twice * c.rho_again;
   if (c.film_weight > 0) base *= under_film(c, t);
-  Spectrum glossy = interface_reflectance(c, t.cos_h, t.fresnel);
-  if (c.enters > 0) glossy = lerp(glossy, pane(c, glossy, t.cos_h).reflected, c.enters);
-  base += t.gloss * c.specular * glossy;
+  if (film_ || c.enters > 0) {
+    Spectrum glossy = interface_reflectance(c, t.cos_h, t.fresnel);
+    if (c.enters > 0) glossy = lerp(glossy, pane(c, glossy, t.cos_h).reflected, c.enters);
+    base += t.gloss * c.specular * glossy;
+  } else {
+    base += (t.gloss * t.fresnel) * c.specular;
+  }
   if (t.metal > 0) {
     Spectrum F = c.metal.at(t.angle);
     if (c.film_weight > 0) F = lerp(F, film_->metal(t.cos_h, c.wavelength, F), c.film_weight);
@@ -77,8 +82,8 @@ Spectrum OpenPbrReflection::value(const Colors& c, const Terms<double>& t) const
   if (c.coat_weight > 0) {
     base *= c.darkening;
     base *= through_coat(c, 2 * t.coat_path);
+    base += Spectrum(t.coat);
   }
-  base += Spectrum(t.coat);
   return fuzzy_ ? base + t.fuzz * c.fuzz : base;
 }
 

@@ -48,11 +48,11 @@ class OpenPbrReflection : public Bsdf {
 
   struct Colors {
     Spectrum rho, rho_again;  ///< The diffuse base, where it reflects.
-    Spectrum rho_through{0};  ///< And where it transmits.
+    Spectrum rho_through;     ///< And where it transmits.
     MetalColors metal;
     Spectrum specular, coat, fuzz;
     Spectrum darkening;  ///< What light that the coat reflects back leaves of the base.
-    Spectrum within{1};  ///< What the inside of a thin pane leaves of light along the normal.
+    Spectrum within;     ///< What the inside of a thin pane leaves of light along the normal.
     double enters = 0, coat_weight = 0, film_weight = 0, gloss = 1, roughness = 0;
     double wavelength = rgb_lanes;
   };
