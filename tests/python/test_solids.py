@@ -72,11 +72,11 @@ def room(solids):
     }
 
 
-def overlapping():
+def overlapping(water=WATER):
     return room(
         {
             "glass": mesh(box(*GLASS)) | {"priority": 2, "bsdf": glass(1.5)},
-            "water": mesh(box(*WATER)) | {"priority": 1, "bsdf": glass(1.33)},
+            "water": mesh(box(*water)) | {"priority": 1, "bsdf": glass(1.33)},
         }
     )
 
@@ -123,6 +123,23 @@ def test_overlapping_solids_look_as_exact_interfaces_do(integrator):
     t = np.abs(a.mean(0) - b.mean(0)) / np.maximum(spread, 1e-6)  # some see the sky alone
     assert t.max() < 6  # of 16 blocks; t with 14 degrees of freedom: p < 4e-5 for each
     assert np.abs(a.mean() / b.mean() - 1) < 0.02
+
+
+def up_to(height):
+    """The water, up to this height."""
+    return overlapping((WATER[0], (WATER[1][0], height, WATER[1][2])))
+
+
+def test_of_faces_in_one_plane_one_is_there():
+    top = GLASS[1][1]
+    flush, lower = (blocks(images(up_to(y), "path", [1], 1024)) for y in (top, top - 1e-4))
+    assert np.abs(flush / lower - 1).max() < 0.02
+
+
+def test_solids_that_touch_look_as_those_that_overlap():
+    touching = (GLASS[1][0], *WATER[0][1:]), WATER[1]
+    a, b = (blocks(images(overlapping(w), "path", [1], 1024)) for w in (touching, WATER))
+    assert np.abs(a / b - 1).max() < 0.02
 
 
 def test_without_priorities_the_same_shapes_look_otherwise():
