@@ -64,6 +64,19 @@ class EnergyTable {
   std::array<double, cosines * roughnesses> values_{};
 };
 
+/// The value at x in [0, 1] between evenly spaced nodes.
+template <size_t n, class F>
+F between_nodes(const std::array<double, n>& values, F x) {
+  const F scaled = max(F(0), min(x, F(1))) * number<F>(n - 1);
+  const F first = min(floor(scaled), number<F>(n - 2));
+  const auto node = [&](int next) {
+    return for_each_lane<F>(
+        [&](int lane) { return values[static_cast<int>(lane_of(first, lane)) + next]; });
+  };
+  const F a = node(0), b = node(1);
+  return a + (scaled - first) * (b - a);
+}
+
 /// Such a function where the roughness is the same everywhere.
 class EnergyRow {
  public:
@@ -73,14 +86,7 @@ class EnergyRow {
   }
   template <class F>
   F at(F cosine) const {
-    const F x = min(sqrt(max(F(0), cosine)), F(1)) * number<F>(EnergyTable::cosines - 1);
-    const F first = min(floor(x), number<F>(EnergyTable::cosines - 2));
-    const auto node = [&](int next) {
-      return for_each_lane<F>(
-          [&](int lane) { return values_[static_cast<int>(lane_of(first, lane)) + next]; });
-    };
-    const F a = node(0), b = node(1);
-    return a + (x - first) * (b - a);
+    return between_nodes(values_, sqrt(max(F(0), cosine)));
   }
 
  private:
@@ -97,14 +103,7 @@ class RoughnessTable {
   }
   template <class F>
   F at(F roughness) const {
-    const F x = max(F(0), min(roughness, F(1))) * number<F>(EnergyTable::roughnesses - 1);
-    const F first = min(floor(x), number<F>(EnergyTable::roughnesses - 2));
-    const auto node = [&](int next) {
-      return for_each_lane<F>(
-          [&](int lane) { return values_[static_cast<int>(lane_of(first, lane)) + next]; });
-    };
-    const F a = node(0), b = node(1);
-    return a + (x - first) * (b - a);
+    return between_nodes(values_, roughness);
   }
 
  private:

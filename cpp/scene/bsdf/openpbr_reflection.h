@@ -15,6 +15,7 @@ namespace mlt {
 class OpenPbrReflection : public Bsdf {
  public:
   enum OpenPbrLobe : size_t { diffuse, specular, coat, fuzz, lobe_count };
+
   Passage passage(const SurfacePoint& at, const Vec3&) const override {
     const double o = textures_.geometry_opacity.eval(at);
     return {Spectrum(1 - o), 1 - o};
