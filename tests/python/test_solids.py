@@ -172,6 +172,20 @@ def test_shapes_of_a_group_have_no_priority():
         mlt.load_dict(scene)
 
 
+def test_what_is_not_closed_has_no_priority():
+    scene = overlapping()
+    scene["water"] = mesh(box(*WATER, but=[(1, 1)])) | {"priority": 1, "bsdf": glass(1.33)}
+    with pytest.raises(mlt.SceneError, match="has a priority, but no inside"):
+        mlt.load_dict(scene)
+
+
+def test_open_surfaces_of_glass_are_no_solids():
+    scene = overlapping()
+    scene["pane"] = {"type": "disk", "bsdf": glass(1.2)}
+    scene["pane"]["to_world"] = mlt.Transform().translate(0, 0, 0.35).scale(2).matrix
+    assert np.isfinite(mlt.render(scene, "path", spp=4)).all()
+
+
 def glass_cube(**more):
     return mesh(box((0, 0, 0), (1, 1, 1))) | {"bsdf": glass(1.5)} | more
 

@@ -1,6 +1,7 @@
 #include "scene/solid/solids.h"
 
 #include "base/error.h"
+#include "scene/solid/closed.h"
 #include "scene/solid/solid_surface.h"
 
 #include <algorithm>
@@ -9,8 +10,17 @@
 namespace mlt {
 namespace {
 
-bool is_dielectric(const Shape& shape) {
-  return shape.bsdf_ptr() && shape.bsdf().index_inside() != nullptr;
+/// Whether it is one without having a priority.
+bool is_solid_of_glass(const Shape& shape) {
+  return shape.bsdf_ptr() && shape.bsdf().index_inside() != nullptr && is_closed(shape);
+}
+
+void check_closed(const Shape& shape) {
+  if (shape.priority() && !is_closed(shape))
+    throw SceneError(at(shape.where,
+                        "shape '{}' has a priority, but no inside: it should be a sphere, or a "
+                        "mesh without holes whose triangles face one side",
+                        shape.type));
 }
 
 struct Box {
@@ -32,7 +42,7 @@ struct Box {
 std::vector<uint32_t> solid_shapes(const std::vector<ShapePtr>& shapes) {
   std::vector<uint32_t> found;
   for (uint32_t i = 0; i < shapes.size(); ++i)
-    if (!shapes[i]->as_instance() && (shapes[i]->priority() || is_dielectric(*shapes[i])))
+    if (!shapes[i]->as_instance() && (shapes[i]->priority() || is_solid_of_glass(*shapes[i])))
       found.push_back(i);
   const std::vector<uint32_t> all = found;
   const auto is_apart = [&](uint32_t i) {
@@ -75,6 +85,7 @@ Solids::Solids(const std::vector<ShapePtr>& shapes, const std::vector<ShapePtr>&
     if (shape->priority())
       throw SceneError(at(shape->where, "a shape of a shapegroup cannot have a priority"));
   if (!any_priority(shapes)) return;
+  for (const ShapePtr& shape : shapes) check_closed(*shape);
   const std::vector<uint32_t> solids = solid_shapes(shapes);
   if (solids.size() >= hidden_surface)
     throw SceneError(

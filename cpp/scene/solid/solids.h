@@ -17,10 +17,10 @@ namespace mlt {
 class Solids {
  public:
   Solids() = default;
-  /// If any of the shapes has a priority, the solids are all that have one or are of a dielectric,
-  /// unless their boxes are apart from all others; those without one have 0. Of solids of one
-  /// priority the smaller one wins. Their materials become those of SolidSurface. Throws SceneError
-  /// for priorities of `grouped` shapes.
+  /// If any of the shapes has a priority, the solids are all that have one, and those of a
+  /// dielectric that are closed, which have 0; unless their boxes are apart from all others. Of
+  /// solids of one priority the smaller one wins. Their materials become those of SolidSurface.
+  /// Throws SceneError for priorities of shapes that are not closed, or are `grouped`.
   Solids(const std::vector<ShapePtr>& shapes, const std::vector<ShapePtr>& grouped,
          const Shutter& shutter);
 

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+TOLERANCE = 5e-4  #: of the volume and of the area: half of that in cpp/scene/solid/closed.cpp
+
 
 def give_priorities(scene: dict[str, Any]) -> None:
     """Gives closed shapes that light enters the priority 0, if there are several of them.
@@ -38,11 +40,16 @@ def light_enters(bsdf: dict[str, Any], scene: dict[str, Any]) -> bool:
 
 
 def is_closed(mesh: dict[str, Any]) -> bool:
-    """Whether each edge lies between two triangles, which go along it in opposite directions."""
-    positions, where = np.unique(np.asarray(mesh["vertices"]), axis=0, return_inverse=True)
-    corners = where.reshape(-1)[np.asarray(mesh["faces"])]
-    first, second = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-    there = first != second
-    n = len(positions)
-    edges, back = (first * n + second)[there], (second * n + first)[there]
-    return bool(len(edges)) and np.array_equal(np.sort(edges), np.sort(back))
+    """Whether the divergence theorem holds: int x_i n_j dA is its volume for i = j, else 0."""
+    positions = np.asarray(mesh["vertices"], dtype=float)
+    corners = (positions - positions[:1])[np.asarray(mesh["faces"])]
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    areas = 0.5 * np.cross(b - a, c - a)
+    moments = corners.mean(1).T @ areas
+    volume = np.trace(moments) / 3
+    total = np.linalg.norm(areas, axis=1).sum()
+    return bool(
+        volume != 0
+        and np.abs(moments - volume * np.eye(3)).max() < TOLERANCE * abs(volume)
+        and np.linalg.norm(areas.sum(0)) < TOLERANCE * total
+    )
