@@ -168,7 +168,7 @@ def test_of_equal_priorities_the_smaller_solid_wins():
 def test_shapes_of_a_group_have_no_priority():
     scene = room({"group": {"type": "shapegroup", "ball": {"type": "sphere", "priority": 1}}})
     scene["copy"] = {"type": "instance", "group": {"type": "ref", "id": "group"}}
-    with pytest.raises(mlt.SceneError, match="shapegroup cannot have a priority"):
+    with pytest.raises(mlt.SceneError, match="shapegroup, cannot have a priority"):
         mlt.load_dict(scene)
 
 
@@ -204,6 +204,7 @@ def test_closed_solids_of_other_programs_have_priorities():
         "wall": {"type": "sphere", "bsdf": {"type": "diffuse"}},
         "open": open_box,
         "filled": glass_cube(interior={"type": "homogeneous"}),
+        "moving": glass_cube(to_world={"type": "animation", "0": np.eye(4), "1": np.eye(4)}),
         "exact": glass_cube(exterior={"type": "homogeneous"}),
     }
     give_priorities(scene)

@@ -13,7 +13,7 @@ def give_priorities(scene: dict[str, Any]) -> None:
     """Gives closed shapes that light enters the priority 0, if there are several of them.
 
     In pbrt, glTF and USD they have none: which of two that overlap is there is left open. A shape
-    that names the medium outside is taken as it is.
+    that names the medium outside, or moves, is taken as it is.
     """
     solids = [shape for shape in scene.values() if is_solid(shape, scene)]
     if len(solids) > 1:
@@ -23,6 +23,8 @@ def give_priorities(scene: dict[str, Any]) -> None:
 
 def is_solid(shape: Any, scene: dict[str, Any]) -> bool:
     if not isinstance(shape, dict) or "bsdf" not in shape or "exterior" in shape:
+        return False
+    if isinstance(shape.get("to_world"), dict):  # it moves
         return False
     if not light_enters(shape["bsdf"], scene):
         return False
