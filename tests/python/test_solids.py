@@ -126,8 +126,9 @@ def test_overlapping_solids_look_as_exact_interfaces_do(integrator):
 
 
 def up_to(height):
-    """The water, up to this height."""
-    return overlapping((WATER[0], (WATER[1][0], height, WATER[1][2])))
+    """The water, up to this height, before the glass: where both are hit, it may be met first."""
+    scene = overlapping((WATER[0], (WATER[1][0], height, WATER[1][2])))
+    return {"type": "scene", "water": scene.pop("water")} | scene
 
 
 def test_of_faces_in_one_plane_one_is_there():

@@ -150,6 +150,14 @@ TEST(OpenPbr, AFilmWithoutThicknessOnAMetalIsNotSeen) {
       EXPECT_NEAR(film.metal(cosine, 550, Spectrum(bare))[0], bare, 1e-9) << cosine;
 }
 
+/// r = (r12 - r23) / (1 - r12 r23), where r12 = -1/6, and r23 with r12 makes the bare -sqrt(1/2).
+TEST(OpenPbr, AQuarterWaveFilmDarkensAMetal) {
+  const double nm = 550, index = 1.4, r12 = -1. / 6, bare = -std::sqrt(0.5);
+  const double r23 = (bare - r12) / (1 - bare * r12);
+  const ThinFilm film(nm / (4 * index), index, 1.5);
+  EXPECT_NEAR(film.metal(1, nm, Spectrum(0.5))[0], sqr((r12 - r23) / (1 - r12 * r23)), 1e-9);
+}
+
 /// A quarter of a wave, with the index sqrt(n): no reflection (Born & Wolf, sec. 1.6.4).
 TEST(OpenPbr, AQuarterWaveFilmTakesTheReflectionAway) {
   const double n = 1.5, index = std::sqrt(n), nm = 550;
