@@ -83,7 +83,8 @@ Solids::Solids(const std::vector<ShapePtr>& shapes, const std::vector<ShapePtr>&
                const Shutter& shutter) {
   for (const ShapePtr& shape : grouped)
     if (shape->priority())
-      throw SceneError(at(shape->where, "a shape that moves, or of a shapegroup, cannot have a priority"));
+      throw SceneError(
+          at(shape->where, "a shape that moves, or of a shapegroup, cannot have a priority"));
   if (!any_priority(shapes)) return;
   for (const ShapePtr& shape : shapes) check_closed(*shape);
   const std::vector<uint32_t> solids = solid_shapes(shapes);
