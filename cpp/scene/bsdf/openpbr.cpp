@@ -132,12 +132,12 @@ class OpenPbr final : public OpenPbrReflection {
   }
 
   /// The densities of `to`, lobe by lobe.
-  Densities<double> densities_of(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
-                                 const Vec3& to, const GlassFacet& facet) const {
+  Densities densities_of(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
+                         const Vec3& to, const GlassFacet& facet) const {
     if (above(from, to))
       return densities(p, from, to, reflected_by_facets(p, at, from, dot(from, facet.h)));
     const auto chosen = choice_of(p, at, from);
-    Densities<double> d{};
+    Densities d{};
     if (from.z < 0 && to.z < 0) d[diffuse] = chosen.share[diffuse] * inv_pi * -to.z;
     if (!facet.exists) return d;
     const double q = reflected_by_facets(p, at, from, dot(from, facet.h));
@@ -146,9 +146,7 @@ class OpenPbr final : public OpenPbrReflection {
         facet_pdf(p.facets, from, to, facet, p.facets.D(facet.h), p.facets.g1(from, facet.h));
     return d;
   }
-  static double sum(const Densities<double>& d) {
-    return d[diffuse] + d[specular] + d[coat] + d[fuzz];
-  }
+  static double sum(const Densities& d) { return d[diffuse] + d[specular] + d[coat] + d[fuzz]; }
 
   /// Where one direction is below the surface or both are.
   Scattering through(const Point<double>& p, const SurfacePoint& at, const Vec3& wl,

@@ -18,8 +18,7 @@ namespace mlt {
 template <class F>
 struct OpenPbrPoint {
   F metalness;
-  F enters;        ///< The share of the dielectric that light goes into.
-  F opaque;        ///< The share of it that is diffuse.
+  F enters;        ///< The share of the dielectric that light goes into; the rest is diffuse.
   F coat, fuzz;    ///< Weights.
   F gloss, metal;  ///< Factors of the dielectric's and of the metal's reflectance.
   F diffuse_roughness, roughness, coat_roughness, fuzz_roughness;

@@ -152,10 +152,9 @@ OpenPbrTerms<F> OpenPbrReflection::terms(const Point<F>& p, const Vec3Of<F>& wl,
     t.metal_again = scale(mirrors, p, wl) * scale(mirrors, p, wc) - 1;
   }
   const F reflected = reflected_share(p, t.fresnel);
-  const F from_below = number<F>(inv_pi);
-  t.pdf_from_light = light.share[diffuse] * from_below * wc.z +
+  t.pdf_from_light = light.share[diffuse] * number<F>(inv_pi) * wc.z +
                      light.share[specular] * reflected * mirror.pdf_from_light;
-  t.pdf_from_camera = camera.share[diffuse] * from_below * wl.z +
+  t.pdf_from_camera = camera.share[diffuse] * number<F>(inv_pi) * wl.z +
                       camera.share[specular] * reflected * mirror.pdf_from_camera;
   if (coated_) {
     const MicrofacetReflection<F> top(p.coat_facets, wl, wc);
@@ -196,11 +195,10 @@ Vec3Of<F> OpenPbrReflection::direction(const Point<F>& p, const Vec3Of<F>& from,
 
 void OpenPbrReflection::scatter(ScatteringLanes& x) const { scatter_by_eight(*this, x); }
 
-OpenPbrReflection::Densities<double> OpenPbrReflection::densities(const Point<double>& p,
-                                                                  const Vec3& from, const Vec3& to,
-                                                                  double reflects) const {
+OpenPbrReflection::Densities OpenPbrReflection::densities(const Point<double>& p, const Vec3& from,
+                                                          const Vec3& to, double reflects) const {
   const auto chosen = choice(p, shares(p, from));
-  Densities<double> d{};
+  Densities d{};
   d[diffuse] = chosen.share[diffuse] * inv_pi * to.z;
   d[specular] = chosen.share[specular] * reflects *
                 MicrofacetReflection<double>(p.facets, from, to).pdf_from_light;

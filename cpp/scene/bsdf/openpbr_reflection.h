@@ -61,8 +61,7 @@ class OpenPbrReflection : public Bsdf {
   Spectrum value(const Colors& colors, const Terms<double>& terms) const;
 
  protected:
-  template <class F>
-  using Densities = std::array<F, lobe_count>;
+  using Densities = std::array<double, lobe_count>;
 
   /// A solid, in which what scatters below the surface is a medium that light enters, or a thin
   /// wall.
@@ -94,8 +93,8 @@ class OpenPbrReflection : public Bsdf {
   }
   /// The densities with which each lobe reflects `from` to `to`; `reflects`: the probability that
   /// the base's facets do.
-  Densities<double> densities(const Point<double>& p, const Vec3& from, const Vec3& to,
-                              double reflects) const;
+  Densities densities(const Point<double>& p, const Vec3& from, const Vec3& to,
+                      double reflects) const;
   /// The numbers for which the lobe reflects `from` to `to`.
   Vec2 invert_lobe(const Point<double>& p, size_t lobe, const Vec3& from, const Vec3& to) const;
 

@@ -80,7 +80,7 @@ class OpenPbrThinWall final : public OpenPbrReflection {
     const Point<double> p = point(at);
     const Vec3 l = upwards(wl), c = turned(wl, wc);
     if (same_side(wl, wc)) return roughness_of(colors(at), p, terms(p, l, c));
-    const Densities<double> d = passed(p, at, l, c);
+    const Densities d = passed(p, at, l, c);
     return d[specular] > d[diffuse] ? through_facets(p).least_alpha() : infinity;
   }
 
@@ -103,20 +103,18 @@ class OpenPbrThinWall final : public OpenPbrReflection {
     return 0.5 * textures_.subsurface_weight.eval(at) * (1 + textures_.subsurface_anisotropy);
   }
 
-  static double sum(const Densities<double>& d) {
-    return d[diffuse] + d[specular] + d[coat] + d[fuzz];
-  }
+  static double sum(const Densities& d) { return d[diffuse] + d[specular] + d[coat] + d[fuzz]; }
   // The densities of `to`, lobe by lobe; both directions are turned to be above.
-  Densities<double> reflected(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
-                              const Vec3& to) const {
-    Densities<double> d = densities(p, from, to, facet_share(p, from));
+  Densities reflected(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
+                      const Vec3& to) const {
+    Densities d = densities(p, from, to, facet_share(p, from));
     d[diffuse] *= 1 - through_share(at);
     return d;
   }
-  Densities<double> passed(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
-                           const Vec3& to) const {
+  Densities passed(const Point<double>& p, const SurfacePoint& at, const Vec3& from,
+                   const Vec3& to) const {
     const auto chosen = choice(p, shares(p, from));
-    Densities<double> d{};
+    Densities d{};
     d[diffuse] = chosen.share[diffuse] * through_share(at) * inv_pi * to.z;
     d[specular] = chosen.share[specular] * (1 - facet_share(p, from)) *
                   MicrofacetReflection<double>(through_facets(p), from, to).pdf_from_light;

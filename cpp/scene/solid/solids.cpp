@@ -5,7 +5,7 @@
 #include "scene/solid/solid_surface.h"
 
 #include <algorithm>
-#include <limits>
+#include <map>
 
 namespace mlt {
 namespace {
@@ -44,18 +44,18 @@ std::vector<uint32_t> solid_shapes(const std::vector<ShapePtr>& shapes) {
   for (uint32_t i = 0; i < shapes.size(); ++i)
     if (!shapes[i]->as_instance() && (shapes[i]->priority() || is_solid_of_glass(*shapes[i])))
       found.push_back(i);
-  const std::vector<uint32_t> all = found;
+  std::map<uint32_t, Box> boxes;
+  for (const uint32_t i : found) boxes.emplace(i, *shapes[i]);
   const auto is_apart = [&](uint32_t i) {
-    const Box box(*shapes[i]);
-    return std::none_of(all.begin(), all.end(), [&](uint32_t other) {
-      return other != i && box.touches(Box(*shapes[other]));
+    return std::none_of(boxes.begin(), boxes.end(), [&](const auto& other) {
+      return other.first != i && boxes.at(i).touches(other.second);
     });
   };
   found.erase(std::remove_if(found.begin(), found.end(), is_apart), found.end());
   const auto priority = [&](uint32_t i) { return shapes[i]->priority().value_or(0); };
   std::stable_sort(found.begin(), found.end(), [&](uint32_t a, uint32_t b) {
     if (priority(a) != priority(b)) return priority(a) > priority(b);
-    return Box(*shapes[a]).volume() < Box(*shapes[b]).volume();
+    return boxes.at(a).volume() < boxes.at(b).volume();
   });
   return found;
 }
