@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/color.h"
+#include "math/exponential.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,11 +98,11 @@ inline double target_luminance(const Spectrum& s) {
 inline bool is_black(const Spectrum& s) { return s == Spectrum(0); }
 inline bool is_grey(const Spectrum& s) { return s == Spectrum(s[0]); }
 
-/// e^s, lane by lane; of equal lanes once.
+/// e^s, in all lanes at once (exponential.h).
 inline Spectrum exp(const Spectrum& s) {
-  if (is_grey(s)) return Spectrum(std::exp(s[0]));
-  const double second = std::exp(s[1]);
-  return {std::exp(s[0]), second, std::exp(s[2]), s[3] == s[1] ? second : std::exp(s[3])};
+  Spectrum result;
+  for (int i = 0; i < Spectrum::lanes; ++i) result[i] = exponential(s[i]);
+  return result;
 }
 
 /// Whether light of this throughput is zero in single precision, the precision of images.

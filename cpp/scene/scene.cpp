@@ -72,6 +72,15 @@ LaneMesh lane_mesh(const Shape& shape) {
   return {};
 }
 
+/// Whether light may go straight through a shape, or one of those that it has instances of.
+bool has_passage(const Shape& shape) {
+  const Instance* instance = shape.as_instance();
+  if (!instance) return shape.bsdf().has_passage();
+  const auto& members = instance->group().shapes();
+  return std::any_of(members.begin(), members.end(),
+                     [](const ShapePtr& member) { return has_passage(*member); });
+}
+
 MeshLight mesh_light(const Emitter& emitter) {
   const Texture* radiance = emitter.uniform_radiance();
   if (!radiance || emitter.shape()->bsdf().has_passage()) return {};
@@ -138,7 +147,8 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   has_passages_ = has_media_;
   for (const ShapePtr& shape : shapes_) {
     lane_meshes_.push_back(mlt::lane_mesh(*shape));
-    has_passages_ = has_passages_ || (!shape->as_instance() && shape->bsdf().has_passage());
+    passed_shapes_.push_back(mlt::has_passage(*shape));
+    has_passages_ = has_passages_ || passed_shapes_.back();
   }
 }
 
@@ -161,6 +171,7 @@ void Scene::find_surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at)
   const SolidIndex solid = solids_.index(at.shape);
   at.around = solid == no_solid ? no_solid : solids_.around(at, solid);
   at.lambertian = bsdf(at).lambertian(at);
+  if (at.lambertian.known()) at.shading = Frame::around(at.shading.n);
 }
 
 Spectrum MeshLight::radiance_at(double wavelength) const {
@@ -236,39 +247,6 @@ Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
   rest.wavelength = ray.wavelength;
   if (has_media_) enter_medium(at, rest);
   return rest;
-}
-
-Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
-  const Bsdf& surface = bsdf(at);
-  if (!surface.has_passage()) return Passage::blocked();
-  Passage passage = surface.passage(at, at.shading.to_local(w));
-  const Emitter* light = emitter(at);
-  if (light && !light->delta_direction()) passage.probability = std::min(passage.probability, 0.5);
-  return passage;
-}
-
-Passage Scene::passage(Ray& ray) const {
-  const Occlusion found = accel_->occluded(ray);
-  if (found.blocked) return Passage::blocked();
-  Passage all;
-  SurfacePoint at;
-  while (found.passed && !all.is_blocked() && ray.t_max > 0 && intersect(ray, at)) {
-    if (ray.medium != no_medium) fly(media_[ray.medium], ray, distance_to(at.p, ray), all);
-    all *= passage(at, ray.d);
-    ray = beyond(ray, at);
-  }
-  return all;
-}
-
-Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
-  Ray ray;
-  if (!find_segment(a, b, time, ray)) return Passage::blocked();
-  const bool ends = !a.infinite() && !b.infinite();
-  if (has_media_ && ends) enter_medium(a, ray);  // spawn() has done it for the others
-  Passage all = passage(ray);
-  if (all.is_blocked() || ray.medium == no_medium) return all;
-  fly(media_[ray.medium], ray, ends ? distance_to(edge_end(b, -ray.d), ray) : ray.t_max, all);
-  return all;
 }
 
 SurfacePoint Scene::point_at_infinity(const Vec3& w, double wavelength) {

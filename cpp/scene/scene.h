@@ -84,6 +84,11 @@ class Scene {
   }
   /// The medium of a point in one.
   const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
+  /// The medium in which a ray from the point along w starts.
+  MediumIndex medium_towards(const SurfacePoint& at, const Vec3& w) const {
+    if (at.shape != SurfacePoint::no_shape) return media_.beside(at, w);
+    return at.kind == PointKind::surface ? camera_->surroundings() : at.medium;
+  }
   /// The point at a distance along an edge, in the medium that its ray is in.
   static SurfacePoint medium_point(const Ray& ray, double distance);
 
@@ -98,6 +103,8 @@ class Scene {
 
   /// Whether light goes straight through any surface, or there is any medium.
   bool has_passages() const { return has_passages_; }
+  /// Whether light may go straight through a shape.
+  bool has_passage(uint32_t shape) const { return passed_shapes_[shape]; }
   /// Whether walks may stop in a medium whose extinction differs between channels, so that their
   /// likelihood changes on the way.
   bool has_coloured_media() const { return has_coloured_media_; }
@@ -110,6 +117,8 @@ class Scene {
   /// The light that goes through all surfaces on a ray of finite length, and the media before them;
   /// the ray becomes the rest of it, behind the last one.
   Passage passage(Ray& ray) const;
+  /// As above, for a ray that no surface blocks but some may dim.
+  Passage pass_surfaces(Ray& ray) const;
   /// The light that goes straight from a to b, through all surfaces and media between them.
   Passage passage(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// The probability that a walk along w, which has come to this point, stops there and does not go
@@ -124,6 +133,10 @@ class Scene {
                                ? edge.flight * medium(end).at(end.p, end.wavelength).extinction
                                : edge.flight;
     return {stops, flies, edge.likelihood};
+  }
+  /// As above, for an end that no walk passes, outside of media.
+  static Arrival arrival(const Passage& edge) {
+    return {edge.probability, edge.flight, edge.likelihood};
   }
   /// Where an edge at this point starts or ends, for distances in media: where rays enter the
   /// scene, if the lens is far away.
@@ -168,11 +181,6 @@ class Scene {
   /// Puts a ray that starts an edge at this point into its medium. Not inlined: most scenes have
   /// none.
   [[gnu::noinline]] void enter_medium(const SurfacePoint& at, Ray& ray) const;
-  /// The medium in which a ray from the point along w starts.
-  MediumIndex medium_towards(const SurfacePoint& at, const Vec3& w) const {
-    if (at.shape != SurfacePoint::no_shape) return media_.beside(at, w);
-    return at.kind == PointKind::surface ? camera_->surroundings() : at.medium;
-  }
   /// Finds all media, and those around lights and the lens; the last shapes are `grouped`.
   void find_media(size_t grouped);
   /// The medium around a point: that on the near side of the first boundary along w.
@@ -199,6 +207,7 @@ class Scene {
   LightChoice light_choice_;
   std::vector<MeshLight> mesh_lights_;  ///< One for each emitter.
   std::vector<LaneMesh> lane_meshes_;   ///< One for each shape.
+  std::vector<bool> passed_shapes_;     ///< One for each shape.
 };
 
 using ScenePtr = std::shared_ptr<const Scene>;

@@ -88,6 +88,13 @@ struct LambertianVertices {
     mesh.textured_point(triangle, {b1, b2}, point.at);
     point.lambertian->reflectance->prefetch(point.at);
   }
+  /// Sets the vertex of the i-th path to a point that is known to be Lambertian.
+  void set(int i, const SurfacePoint& at) {
+    set_position(i, at);
+    back[i] = at.lambertian.sides == Lambertian::Sides::both ? 1 : 0;
+    textured_f_[i] = at.lambertian.f;
+    f[i] = &textured_f_[i];
+  }
   /// Sets the position of the i-th path to that of a vertex which is not Lambertian.
   void set_position(int i, const SurfacePoint& at) {
     surface.set(i, Vec3f(at.p), Vec3f(at.ng), static_cast<float>(at.extent));

@@ -7,9 +7,8 @@ void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
     find_hits(coherent && depth == 1, rays);
     next_ = 0;
-    first_ = numbers_.places();
-    if (scene_->has_passages()) leg_ = numbers_.places().next();
-    at_ = decltype(at_)::draw(numbers_.places());
+    begin_vertices(depth == rules_.most_edges());
+    if (scene_->has_passages()) follow_legs(rays);
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
       shade_block(depth, rays);
@@ -38,23 +37,62 @@ void BasicPathWave<Numbers>::find_hits(bool coherent, RayCounts& rays) {
   rays.count_intersect(live_);
 }
 
+/// Finds where the numbers of this step are: those of a vertex unless it is the `last`, and of the
+/// leg to it.
+template <class Numbers>
+void BasicPathWave<Numbers>::begin_vertices(bool last) {
+  const auto first = numbers_.places();
+  if (scene_->has_passages()) leg_ = numbers_.places().next();
+  at_ = decltype(at_)::draw(numbers_.places());
+  if (last && !scene_->has_passages()) return;
+  for (int begin = 0; begin < live_; begin += block_size)
+    numbers_.begin_vertex(first, begin, std::min(block_size, live_ - begin), last);
+}
+
+/// Follows the rays on that go through something.
+template <class Numbers>
+void BasicPathWave<Numbers>::follow_legs(RayCounts& rays) {
+  legs_.clear();
+  for (int place = 0; place < live_; ++place) {
+    leg_at_[place] = -1;
+    const Hit hit = hits(place);
+    const MediumIndex medium = walks_[path_[place]].ray.medium;
+    const bool meets = hit.shape != SurfacePoint::no_shape;
+    if (medium == no_medium && !(meets && scene_->has_passage(hit.shape))) continue;
+    const WaveWalk& walk = exact_walk(place);
+    leg_at_[place] = static_cast<int>(legs_.all().size());
+    WaveLeg& leg = legs_.add({walk.ray, hit, numbers_.read(leg_, place), {}, {}});
+    leg.passed.likelihood = walk.likelihood;
+  }
+  legs_.follow(*scene_, rays);
+}
+
+/// Takes what has been passed on the leg to its end: `at`, or (nullptr) nowhere or on a surface
+/// that light does not pass.
+template <class Numbers>
+void BasicPathWave<Numbers>::arrive(int place, WaveWalk& walk, const SurfacePoint* at) {
+  if (!passes_something(place)) return;
+  const WaveLeg& leg = this->leg(place);
+  walk.ray = leg.ray;
+  walk.pass(leg.passed,
+            at ? scene_->arrival(leg.passed, *at, leg.ray.d) : Scene::arrival(leg.passed));
+}
+
 /// Takes one step of trace_path for all paths of the block.
 template <class Numbers>
 void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
-  if (!last || scene_->has_passages()) numbers_.begin_vertex(first_, begin_, count_, last);
   if (!last) read_numbers(depth);
   glossy_.clear();
   singles_.clear();
   sky_count_ = 0;
-  for (int i = 0; i < count_; ++i) find_vertex(i, depth, rays);
+  for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
   glossy_.find_frames(lambertian_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_]);
-  const bool lit = rules_.wants(depth + 1) && !scene_->has_media();
-  if (scene_->has_media()) light_singles(depth, rays);
+  const bool lit = rules_.wants(depth + 1);
   if (lit) choose_lights(depth);
   scatter_in_lanes();
   if (lit) queue_lights();
@@ -73,30 +111,25 @@ void BasicPathWave<Numbers>::read_numbers(int depth) {
 }
 
 template <class Numbers>
-inline void BasicPathWave<Numbers>::find_vertex(int i, int depth, RayCounts& rays) {
-  const PacketHits& hits = this->hits(i);
-  const int lane = i % RayPacket::size;
-  const uint32_t shape = hits.shape[lane];
+inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
+  const int place = begin_ + i;
   lambertian_.f[i] = nullptr;
   glossy_at_[i] = single_[i] = -1;
-  if (scene_->has_media()) return find_single(i, hits.hit(lane), depth, rays);
-  if (shape == SurfacePoint::no_shape) {
-    if (!rules_.wants(depth)) return;
-    WaveWalk& walk = exact_walk(begin_ + i);
-    find_light_at_end(begin_ + i, walk, nullptr);
-    return;
-  }
-  const LaneMesh& mesh = scene_->lane_mesh(shape);
+  if (passes_something(place) && leg(place).in_medium()) return find_in_medium(i, depth);
+  const Hit hit = passes_something(place) ? leg(place).hit : hits(place);
+  if (hit.shape == SurfacePoint::no_shape) return leave_scene(place, depth);
+  const LaneMesh& mesh = scene_->lane_mesh(hit.shape);
   const bool glossy = mesh.glossy && !mesh.emits;
-  if (mesh.emits || !(mesh.lambertian || glossy)) find_single(i, hits.hit(lane), depth, rays);
-  if (depth == rules_.most_edges()) return;
-  const uint32_t triangle = hits.primitive[lane];
-  const Vec2f b(hits.u[lane], hits.v[lane]);
+  const bool in_lanes = (mesh.lambertian || glossy) && !scene_->media().is_boundary(hit.shape);
+  if (mesh.emits || !in_lanes) find_single(i, hit, depth, in_lanes);
+  if (!in_lanes || depth == rules_.most_edges()) return;
+  if (!mesh.emits) arrive(place, walk(i), nullptr);
+  const Vec2f b(hit.u, hit.v);
   if (mesh.lambertian) {
-    lambertian_.set(i, mesh, triangle, b.x, b.y, walk(i).ray.wavelength);
-  } else if (glossy) {
-    lambertian_.set_place(i, *mesh.mesh, triangle, b.x, b.y, true);
-    glossy_at_[i] = glossy_.add(i, mesh, triangle, b, walk(i).ray.wavelength);
+    lambertian_.set(i, mesh, hit.primitive, b.x, b.y, walk(i).ray.wavelength);
+  } else {
+    lambertian_.set_place(i, *mesh.mesh, hit.primitive, b.x, b.y, true);
+    glossy_at_[i] = glossy_.add(i, mesh, hit.primitive, b, walk(i).ray.wavelength);
   }
 }
 
@@ -120,24 +153,41 @@ inline void BasicPathWave<Numbers>::find_light_at_end(int place, WaveWalk& walk,
   find_light(*scene_, walk, at, keeper);
 }
 
-/// Finds a vertex on a surface that shines, is not Lambertian, or is behind one that light passes;
-/// in scenes with media any vertex.
 template <class Numbers>
-void BasicPathWave<Numbers>::find_single(int i, const Hit& hit, int depth, RayCounts& rays) {
-  WaveWalk& walk = exact_walk(begin_ + i);
+void BasicPathWave<Numbers>::leave_scene(int place, int depth) {
+  if (!rules_.wants(depth)) return;
+  WaveWalk& walk = exact_walk(place);
+  arrive(place, walk, nullptr);
+  find_light_at_end(place, walk, nullptr);
+}
+
+/// Finds a vertex on a surface that shines, or is not `in_lanes`.
+template <class Numbers>
+void BasicPathWave<Numbers>::find_single(int i, const Hit& hit, int depth, bool in_lanes) {
+  const int place = begin_ + i;
+  WaveWalk& walk = exact_walk(place);
   const int added = singles_.add(i, -walk.ray.d);
   SurfacePoint& at = singles_[added].at;
-  bool stops = hit.shape != SurfacePoint::no_shape;
-  if (stops) scene_->find_surface_point(walk.ray, hit, at);
-  if (walk.ray.medium != no_medium || (stops && scene_->bsdf(at).has_passage()))
-    stops = go_through(Walker{*scene_, walk.ray.time, rays}, numbers_.read(leg_, begin_ + i), stops,
-                       walk, at);
-  if (rules_.wants(depth)) find_light_at_end(begin_ + i, walk, stops ? &at : nullptr);
-  const bool in_lanes = !scene_->has_media() && scene_->lane_mesh(hit.shape).lambertian;
-  if (stops && !in_lanes && consistent_sides(at, -walk.ray.d, rules_.strict_normals))
+  scene_->find_surface_point(passes_something(place) ? leg(place).ray : walk.ray, hit, at);
+  arrive(place, walk, &at);
+  if (rules_.wants(depth)) find_light_at_end(place, walk, &at);
+  const bool lambertian = at.lambertian.known() && !scene_->media().is_boundary(at);
+  if (lambertian && !in_lanes) lambertian_.set(i, at);
+  if (!in_lanes && !lambertian && consistent_sides(at, -walk.ray.d, rules_.strict_normals))
     single_[i] = added;
   else
     singles_.drop_last();
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::find_in_medium(int i, int depth) {
+  const int place = begin_ + i;
+  WaveWalk& walk = walks_[path_[place]];
+  single_[i] = singles_.add(i, -walk.ray.d);
+  SurfacePoint& at = singles_[single_[i]].at;
+  at = Scene::medium_point(leg(place).ray, *leg(place).stop);
+  arrive(place, walk, &at);
+  if (rules_.wants(depth)) find_light_at_end(place, walk, &at);
 }
 
 template <class Numbers>
@@ -180,6 +230,8 @@ bool BasicPathWave<Numbers>::leave_mesh(int i, int depth, double pdf, WaveWalk& 
   walk.delta = false;
   walk.certainty = 0;
   walk.previous = Vec3(lambertian_.p[i]);
+  if (walk.ray.medium != no_medium)
+    walk.ray.before = dot(lambertian_.o[i] - lambertian_.p[i], lambertian_.w[i]);
   return true;
 }
 

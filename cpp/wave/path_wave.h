@@ -11,6 +11,7 @@
 #include "wave/glossy_vertices.h"
 #include "wave/single_vertices.h"
 #include "wave/wave_hits.h"
+#include "wave/wave_legs.h"
 #include "wave/wave_numbers.h"
 #include "wave/wave_shadows.h"
 
@@ -78,8 +79,8 @@ class BasicPathWave {
   bool full() const { return size() == capacity; }
   /// Traces all paths to their ends. `coherent`: the first rays of adjacent paths are similar.
   void trace(RayCounts& rays, bool coherent = true);
-  /// Whether the radiance of each emitter is kept apart, too: not in scenes with media.
-  void keep_emitters(bool keep) { keeps_emitters_ = keep && !scene_->has_media(); }
+  /// Whether the radiance of each emitter is kept apart, too.
+  void keep_emitters(bool keep) { keeps_emitters_ = keep; }
   bool keeps_emitters() const { return keeps_emitters_; }
   /// Calls show(emitter, radiance) for all parts of the radiance of the i-th path.
   template <class Show>
@@ -107,11 +108,13 @@ class BasicPathWave {
     LightSample light;
   };
 
-  /// Light behind surfaces that it may have to pass, as if there were none.
+  /// Light behind media, and surfaces that it may have to pass, as if there were none.
   struct LightToPass {
     Spectrum light;
     bool disperses;
     double mis, survival;
+    Spectrum likelihood;  ///< That with which its path would go on.
+    MediumIndex medium;   ///< In which the shadow ray begins.
   };
 
   /// A part of the radiance of a path; `before` is its path's last one, or -1.
@@ -132,16 +135,20 @@ class BasicPathWave {
   void find_light_at_end(int place, WaveWalk& walk, const SurfacePoint* at);
 
   void find_hits(bool coherent, RayCounts& rays);
+  void begin_vertices(bool last);
+  void follow_legs(RayCounts& rays);
+  void arrive(int place, WaveWalk& walk, const SurfacePoint* at);
   void find_shadows(RayCounts& rays);
-  void receive_through(int shadow);
+  void receive_through(int shadow, bool passes_surfaces);
 
   // Functions of the `count_` paths from the begin_-th one on:
   void shade_block(int depth, RayCounts& rays);
   void read_numbers(int depth);
   Vec3 numbers_for_light(int i) const;
-  void find_vertex(int i, int depth, RayCounts& rays);
-  void find_single(int i, const Hit& hit, int depth, RayCounts& rays);
-  void light_singles(int depth, RayCounts& rays);
+  void find_vertex(int i, int depth);
+  void leave_scene(int place, int depth);
+  void find_single(int i, const Hit& hit, int depth, bool in_lanes);
+  void find_in_medium(int i, int depth);
   void choose_lights(int depth);
   void choose_other_light(int i, const EmitterChoice& choice, const Vec2& u);
   void sample_other_lights();
@@ -152,7 +159,7 @@ class BasicPathWave {
   void queue_glossy(const GlossyVertex& vertex);
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const DirectLight& direct, double mis, const Vec3f& o, const Vec3f& w,
-                    float length);
+                    float length, MediumIndex medium);
   void queue_shadow(int i, const DirectLight& direct, double mis);
   void take_step(int depth, RayCounts& rays);
   bool scatter_lambertian(int i, int depth, WaveWalk& walk);
@@ -168,7 +175,9 @@ class BasicPathWave {
   /// The walk at this place of the wave, with its ray in double precision.
   WaveWalk& exact_walk(int place);
   WaveWalk& walk(int i) { return walks_[path_[begin_ + i]]; }
-  const PacketHits& hits(int i) const { return hits_[(begin_ + i) / RayPacket::size]; }
+  Hit hits(int place) const { return hits_[place / RayPacket::size].hit(place % RayPacket::size); }
+  bool passes_something(int place) const { return scene_->has_passages() && leg_at_[place] >= 0; }
+  const WaveLeg& leg(int place) const { return legs_.all()[leg_at_[place]]; }
 
   const Scene* scene_;
   PathRules rules_;
@@ -187,9 +196,11 @@ class BasicPathWave {
   Wave<int> path_;    ///< Its index in walks_.
   VectorWave o_, d_;  ///< Its ray.
   Wave<bool> exact_;  ///< Whether its walk has the ray in double precision.
+  WaveLegs legs_;     ///< Legs on which something is passed,
+  Wave<int> leg_at_;  ///< and which of them is its own; -1: none.
   PacketHits hits_[wave_size / RayPacket::size];
   Numbers numbers_;
-  typename Numbers::Place first_, leg_;  ///< The places of the numbers of this step.
+  typename Numbers::Place leg_;  ///< The places of the numbers of this step.
   VertexNumbersOf<typename Numbers::Place> at_;
   int next_ = 0;  ///< How many take the next step; they are compacted.
 

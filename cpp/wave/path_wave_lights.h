@@ -11,17 +11,6 @@ Vec3 BasicPathWave<Numbers>::numbers_for_light(int i) const {
   return {several ? u_choice_[i] : 0, u_light_x_[i], u_light_y_[i]};
 }
 
-/// Lights the vertices in scenes with media, one by one.
-template <class Numbers>
-void BasicPathWave<Numbers>::light_singles(int depth, RayCounts& rays) {
-  for (const SingleVertex& single : singles_) {
-    WaveWalk& walk = this->walk(single.path);
-    if (!wants_direct_light(*scene_, rules_, depth, single.at)) continue;
-    add_direct_light(Walker{*scene_, walk.ray.time, rays}, rules_, single.at,
-                     numbers_for_light(single.path), walk, walk);
-  }
-}
-
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_lights(int depth) {
   const auto wants_light = [&](int i) {
@@ -114,13 +103,15 @@ void BasicPathWave<Numbers>::light_glossy() {
 
 template <class Numbers>
 inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direct, double mis,
-                                                 const Vec3f& o, const Vec3f& w, float length) {
+                                                 const Vec3f& o, const Vec3f& w, float length,
+                                                 MediumIndex medium) {
   WaveWalk& walk = this->walk(i);
   const Spectrum light = walk.throughput * direct.radiance;
   const Color found = walk.seen(light, direct.disperses);
   ++walk.rays.occluded;
   if (scene_->has_passages())
-    lights_to_pass_.push_back({light, walk.dispersed || direct.disperses, mis, walk.survival});
+    lights_to_pass_.push_back(
+        {light, walk.dispersed || direct.disperses, mis, walk.survival, walk.likelihood, medium});
   shadow_emitter_[shadows_.count()] = emitter_[i];
   shadows_.add(path_[begin_ + i], found, walk.find(walk, found, 0), o, w, length);
 }
@@ -129,7 +120,7 @@ inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direc
 template <class Numbers>
 inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direct, double mis) {
   queue_shadow(i, direct, mis, lambertian_.shadow_o[i], lambertian_.shadow_w[i],
-               lambertian_.shadow_length[i]);
+               lambertian_.shadow_length[i], this->walk(i).ray.medium);
 }
 
 template <class Numbers>
@@ -198,7 +189,8 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
       unshadowed_light(single.light, at, rules_.strict_normals, scattering, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, single.light.x0.at, walk.ray.time))
-    queue_shadow(i, light, weight, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
+    queue_shadow(i, light, weight, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max),
+                 scene_->has_media() ? scene_->medium_towards(at, ray->d) : no_medium);
 }
 
 template <class Numbers>
@@ -207,23 +199,28 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
       [&](int shadow, const Color& radiance, double share) {
+        if (scene_->has_media() && lights_to_pass_[shadow].medium != no_medium)
+          return receive_through(shadow, false);
         receive(shadows_.path(shadow), shadow_emitter_[shadow], radiance * share);
       },
-      [&](int shadow) { receive_through(shadow); });
+      [&](int shadow) { receive_through(shadow, true); });
   lights_to_pass_.clear();
 }
 
-/// See direct_light() of path_tracer.h: the surfaces change the light, and its weight, since a walk
-/// may stop there.
+/// See direct_light() of path_tracer.h: what lies on the way changes the light, and its weight,
+/// since a walk may stop there.
 template <class Numbers>
-void BasicPathWave<Numbers>::receive_through(int shadow) {
+void BasicPathWave<Numbers>::receive_through(int shadow, bool passes_surfaces) {
   const LightToPass& to_pass = lights_to_pass_[shadow];
   WaveWalk& walk = walks_[shadows_.path(shadow)];
   Ray ray = shadows_.ray(shadow, walk.ray.time);
   ray.wavelength = walk.ray.wavelength;
-  const Passage seen = scene_->passage(ray);
+  ray.medium = to_pass.medium;
+  Passage seen = passes_surfaces ? scene_->pass_surfaces(ray) : Passage();
+  if (ray.medium != no_medium) fly(scene_->media()[ray.medium], ray, ray.before + ray.t_max, seen);
   if (seen.is_blocked()) return;
-  const double mis = mis_weight(1, (1 / to_pass.mis - 1) * walk.mis.raise(seen.probability));
+  const double goes = Scene::arrival(seen).after(to_pass.likelihood).probability();
+  const double mis = mis_weight(1, (1 / to_pass.mis - 1) * walk.mis.raise(goes));
   const Color found = recorded(to_pass.light * seen.transmittance * (mis / to_pass.mis),
                                ray.wavelength, to_pass.disperses);
   receive(shadows_.path(shadow), shadow_emitter_[shadow],

@@ -17,6 +17,8 @@ struct FlightLimit {
 
   /// Whether the flight ends where the optical depth is tau.
   bool ends(const Spectrum& tau) const { return left > 0 && mean(before * exp(-tau)) <= left; }
+  /// The optical depth where it ends, if that is the same in all channels.
+  double grey_depth() const { return left > 0 ? std::log(mean(before) / left) : infinity; }
 };
 
 /// A flight that has ended.
@@ -26,27 +28,24 @@ struct Flight {
   bool stops = false;  ///< Whether it ends in the medium.
 };
 
-/// Where a flight ends, for an extinction that rises and falls: the root of
-/// mean(before e^-tau(t)) = left between two distances, by Newton's method within a bracket.
-/// depth(t) is tau, extinction(t) its derivative.
-template <class Depth, class Extinction>
-double flight_end(const FlightLimit& limit, double from, double to, Depth&& depth,
-                  Extinction&& extinction) {
+/// The root between two distances of a function that falls, by Newton's method within a bracket;
+/// f(t) is its value and its slope, less its sign.
+template <class F>
+double flight_end(double from, double to, F&& f) {
   double t = 0.5 * (from + to);
   for (int i = 0; i < 100 && from < to; ++i) {
-    const Spectrum now = limit.before * exp(-depth(t));
-    const double excess = mean(now) - limit.left;
+    const auto [excess, fall] = f(t);
     (excess > 0 ? from : to) = t;
-    const double step = excess / mean(now * extinction(t)), next = t + step;
+    const double step = excess / fall, next = t + step;
     if (std::fabs(step) <= 1e-15 * to) break;
     t = from < next && next < to ? next : 0.5 * (from + to);
   }
   return t;
 }
 
-/// A flight where the extinction is the same everywhere. In grey media it ends at
-/// log(mean(before) / left) / sigma; in others Newton's method begins there, which is too short:
-/// since the sum of exponentials is convex, it comes closer from there.
+/// A flight where the extinction is the same everywhere. In media that are not grey Newton's method
+/// finds the root of log(mean(before e^-sigma t) / left), from 0 on: since the logarithm of a sum
+/// of exponentials is convex and nearly straight, it comes closer from below in few steps.
 Flight uniform_flight(const Spectrum& extinction, const FlightLimit& limit);
 
 }  // namespace mlt

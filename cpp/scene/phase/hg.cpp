@@ -5,23 +5,28 @@
 namespace mlt {
 namespace {
 
-class HenyeyGreenstein final : public PhaseFunction {
+class HenyeyGreenstein final : public PhaseFunction<HenyeyGreenstein> {
  public:
-  explicit HenyeyGreenstein(Params& params) : g_(params.real_in("g", -0.999, 0.999)) {}
+  static constexpr bool lanes = true;
 
- protected:
-  double density(double cosine) const override {
-    const double d = 1 + g_ * g_ - 2 * g_ * cosine;
-    return (1 - g_ * g_) * 0.25 * inv_pi / (d * std::sqrt(d));
+  explicit HenyeyGreenstein(Params& params) : g_(params.real_in("g", -0.999, 0.999)) {
+    supports_lanes_ = std::abs(g_) < 0.95;  // single precision is not enough for narrower ones
+  }
+
+  template <class F>
+  F density(const F& cosine) const {
+    const F g = number<F>(g_), d = 1 + g * g - 2 * g * cosine;
+    return number<F>((1 - g_ * g_) * 0.25 * inv_pi) / (d * sqrt(d));
   }
   /// With s = (1 - g^2) / (1 + g - 2 g u): cos = (1 + g^2 - s^2) / (2 g). Written with (s - 1) / g,
   /// so that a small g keeps its digits.
-  double sample_cosine(double u) const override {
-    const double d = 1 + g_ - 2 * g_ * u;
-    const double over_g = (2 * u - 1 - g_) / d;  // (s - 1) / g
-    return 0.5 * g_ - over_g - 0.5 * g_ * over_g * over_g;
+  template <class F>
+  F sample_cosine(const F& u) const {
+    const F g = number<F>(g_), half_g = number<F>(0.5 * g_);
+    const F over_g = (2 * u - 1 - g) / (1 + g - 2 * g * u);  // (s - 1) / g
+    return half_g - over_g - half_g * over_g * over_g;
   }
-  double invert_cosine(double cosine) const override {
+  double invert_cosine(double cosine) const {
     const double s = std::sqrt(1 + g_ * g_ - 2 * g_ * cosine);
     const double over_g = (g_ - 2 * cosine) / (s + 1);  // (s - 1) / g
     return 0.5 * (1 + g_) * (1 + over_g) / s;

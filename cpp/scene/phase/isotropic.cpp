@@ -7,15 +7,22 @@
 namespace mlt {
 namespace {
 
-class Isotropic final : public PhaseFunction {
+class Isotropic final : public PhaseFunction<Isotropic> {
  public:
-  Isotropic() = default;
-  explicit Isotropic(Params&) {}
+  static constexpr bool lanes = true;
 
- protected:
-  double density(double) const override { return uniform_sphere_pdf(); }
-  double sample_cosine(double u) const override { return 1 - 2 * u; }
-  double invert_cosine(double cosine) const override { return 0.5 * (1 - cosine); }
+  Isotropic() { supports_lanes_ = true; }
+  explicit Isotropic(Params&) : Isotropic() {}
+
+  template <class F>
+  F density(const F&) const {
+    return number<F>(uniform_sphere_pdf());
+  }
+  template <class F>
+  F sample_cosine(const F& u) const {
+    return 1 - 2 * u;
+  }
+  double invert_cosine(double cosine) const { return 0.5 * (1 - cosine); }
 };
 
 }  // namespace

@@ -6,21 +6,20 @@
 namespace mlt {
 namespace {
 
-class Rayleigh final : public PhaseFunction {
+class Rayleigh final : public PhaseFunction<Rayleigh> {
  public:
+  static constexpr bool lanes = false;
+
   explicit Rayleigh(Params&) {}
 
- protected:
-  double density(double cosine) const override { return 3 * inv_pi / 16 * (1 + cosine * cosine); }
+  double density(double cosine) const { return 3 * inv_pi / 16 * (1 + cosine * cosine); }
   /// The root of cos^3 + 3 cos = 4 - 8 u, by Cardano's formula.
-  double sample_cosine(double u) const override {
+  double sample_cosine(double u) const {
     const double a = 2 - 4 * u;
     const double root = std::cbrt(std::abs(a) + std::sqrt(a * a + 1));
     return std::copysign(root - 1 / root, a);
   }
-  double invert_cosine(double cosine) const override {
-    return 0.125 * (4 - cosine * (3 + cosine * cosine));
-  }
+  double invert_cosine(double cosine) const { return 0.125 * (4 - cosine * (3 + cosine * cosine)); }
 };
 
 }  // namespace

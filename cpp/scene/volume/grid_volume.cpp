@@ -12,6 +12,34 @@ namespace {
 struct GreyLanes {
   Spectrum operator()(double value) const { return Spectrum(value); }
 };
+
+/// The end of a flight by its optical depth tau: whether it is before, and by how much, with the
+/// fall of that for this extinction.
+class GreyEnd {
+ public:
+  GreyEnd(const FlightLimit& limit, const GreyLanes&) : most_(limit.grey_depth()) {}
+  bool ends(double tau) const { return tau >= most_; }
+  std::pair<double, double> excess(double tau, double extinction) const {
+    return {most_ - tau, extinction};
+  }
+
+ private:
+  double most_;
+};
+template <class ToLanes>
+class ColouredEnd {
+ public:
+  ColouredEnd(const FlightLimit& limit, const ToLanes& lanes) : limit_(limit), lanes_(lanes) {}
+  bool ends(const Color& tau) const { return limit_.ends(lanes_(tau)); }
+  std::pair<double, double> excess(const Color& tau, const Color& extinction) const {
+    const Spectrum now = limit_.before * exp(-lanes_(tau));
+    return {mean(now) - limit_.left, mean(now * lanes_(extinction))};
+  }
+
+ private:
+  const FlightLimit& limit_;
+  const ToLanes& lanes_;
+};
 struct RgbLanes {
   Spectrum operator()(const Color& value) const { return Spectrum(value); }
 };
@@ -20,19 +48,22 @@ struct RgbLanes {
 /// spectrum of it.
 template <class T, class ToLanes>
 class Flying {
+  using End = std::conditional_t<std::is_same_v<ToLanes, GreyLanes>, GreyEnd, ColouredEnd<ToLanes>>;
+
  public:
   Flying(const Grid& grid, const Vec3& o, const Vec3& d, double scale, const ToLanes& lanes)
       : grid_(&grid), o_(o), d_(d), scale_(scale), lanes_(lanes) {}
 
   Flight fly(const FlightLimit& limit) const {
+    const End end(limit, lanes_);
     Flight flight{limit.distance};
     T depth(0);
     GridWalk(*grid_, o_, d_, limit.distance)
         .run([&](const Grid::Index& index, double from, double to) {
           const Cell cell(*this, index);
           const T here = cell.integral(from, to);
-          if (limit.ends(lanes_(depth + here))) {
-            flight = stop(limit, depth, cell, from, to);
+          if (end.ends(depth + here)) {
+            flight = stop(end, depth, cell, from, to);
             return false;
           }
           depth += here;
@@ -63,12 +94,11 @@ class Flying {
     double scale;
   };
 
-  Flight stop(const FlightLimit& limit, const T& before, const Cell& cell, double from,
-              double to) const {
-    const auto depth = [&](double t) { return lanes_(before + cell.integral(from, t)); };
+  Flight stop(const End& end, const T& before, const Cell& cell, double from, double to) const {
+    const auto depth = [&](double t) { return before + cell.integral(from, t); };
     const double t =
-        flight_end(limit, from, to, depth, [&](double t) { return lanes_(cell.at(t)); });
-    return {t, depth(t), true};
+        flight_end(from, to, [&](double t) { return end.excess(depth(t), cell.at(t)); });
+    return {t, lanes_(depth(t)), true};
   }
 
   const Grid* grid_;

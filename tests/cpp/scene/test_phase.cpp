@@ -2,6 +2,7 @@
 // sphere, and the inverse gives the numbers back.
 #include "harness/chi_square.h"
 #include "scene/bsdf/bsdf_testing.h"
+#include "scene/bsdf/scattering_lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,39 @@ TEST(PhaseFunction, GivesTheNumbersBackAndIsReciprocal) {
       ASSERT_NEAR(s.f[0], s.pdf_from_light, 1e-12 * s.f[0]) << p.label;
       ASSERT_EQ(p.phase->eval(at, to, from, Lobe::smooth), s.f) << p.label;
     }
+}
+
+TEST(PhaseFunction, ScattersLightInLanesAsAtSinglePoints) {
+  constexpr int points = 61;  // not a multiple of eight
+  int supported = 0;
+  Rng rng(4, Purpose::test, 0);
+  for (const Phase& p : phases()) {
+    if (!p.phase->supports_lanes()) continue;
+    ++supported;
+    ScatteringLanes x;
+    std::vector<Vec3> wc, wl, u;
+    x.count = points;
+    for (int i = 0; i < points; ++i) {
+      wc.push_back(random_direction(rng));
+      wl.push_back(i % 5 == 0 ? Vec3(0) : random_direction(rng));
+      u.push_back(random_u(rng));
+      x.at[i] = &at;
+      x.wc.set(i, Vec3f(wc[i]));
+      x.wl.set(i, Vec3f(wl[i]));
+      x.set_numbers(i, u[i]);
+    }
+    p.phase->scatter(x);
+    for (int i = 0; i < points; ++i) {
+      const double light = i % 5 == 0 ? 0 : p.phase->pdf(at, wc[i], wl[i], Lobe::smooth);
+      ASSERT_NEAR(x.pdf_light[i], light, 1e-4 * light) << p.label;
+      ASSERT_EQ(x.f_light[i], Spectrum(double{x.pdf_light[i]})) << p.label;
+      ASSERT_LT(length(Vec3(x.to[i]) - p.phase->sample(at, wc[i], u[i])->to), 1e-3) << p.label;
+      const double next = p.phase->pdf(at, wc[i], normalize(Vec3(x.to[i])), Lobe::smooth);
+      ASSERT_NEAR(x.pdf[i], next, 1e-3 * next) << p.label;
+      ASSERT_EQ(x.f[i], Spectrum(double{x.pdf[i]})) << p.label;
+    }
+  }
+  EXPECT_EQ(supported, 7);  // isotropic, and those of hg but for +-0.99
 }
 
 }  // namespace
