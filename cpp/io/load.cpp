@@ -9,6 +9,7 @@
 #include "io/node_bytes.h"
 #include "io/view_nodes.h"
 #include "scene/emitter/daylight.h"
+#include "scene/emitter/volume_light.h"
 #include "scene/light/coincident_lights.h"
 #include "scene/medium/crossing_boundaries.h"
 
@@ -72,6 +73,8 @@ Contents build_contents(const Node& scene, const Node& sensor, const std::option
       builder.object(child);
     }
   }
+  const std::vector<EmitterPtr> glowing = volume_lights(shapes);
+  emitters.insert(emitters.end(), glowing.begin(), glowing.end());
   for (const auto& [node, emitter] : unattached)
     if (!builder.on_a_shape(*node))
       throw SceneError(

@@ -24,6 +24,7 @@ void splice(const PathState& x, const Edit& edit, PathState& y) {
   y.terms.raster = x.terms.raster;
   y.terms.light_can_be_hit = x.terms.light_can_be_hit;
   y.terms.camera_can_be_hit = x.terms.camera_can_be_hit;
+  y.terms.light_in_medium = x.terms.light_in_medium;
 }
 
 }  // namespace mlt

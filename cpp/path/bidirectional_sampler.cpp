@@ -20,14 +20,14 @@ bool BidirectionalSampler::weigh(Connection& connection, double own, const Techn
 }
 
 double BidirectionalSampler::certainty_of_hit_light(int t) const {
-  double p = camera_[1].passes;
+  double p = camera_[t - 1].vertex.at.in_medium() ? 0 : camera_[1].passes;
   for (int i = 1; i < t - 1; ++i)
     p *= connectable(camera_[i].vertex) ? 0 : camera_[i].next_coefficient * camera_[i + 1].passes;
   return p;
 }
 
 double BidirectionalSampler::certainty_of_hit_lens(int s, const Arrival& from_lens) const {
-  double p = from_lens.probability();
+  double p = light_[0].vertex.at.in_medium() ? 0 : from_lens.probability();
   Spectrum likelihood = from_lens.next_likelihood();
   for (int i = s - 2; i > 0 && p > 0; --i)
     p *= connectable(light_[i].vertex)
@@ -95,7 +95,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   if (t == 1) connection.raster = raster;
   const Passage seen = walker(rays).passage(a.vertex.at, b.vertex.at);
   if (seen.is_blocked()) return false;
-  connection.certainty = k == 1 ? 1 : 0;
+  connection.certainty = k == 1 && !a.vertex.at.in_medium() ? 1 : 0;
   Spectrum light_likelihood(1), camera_likelihood(1);
   if (scene_->has_passages()) {
     const EdgePassage ends(*scene_, a.vertex.at, b.vertex.at, seen, t == 1);

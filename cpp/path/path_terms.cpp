@@ -96,6 +96,7 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
   if (first == 0) {
     at[0].from_light = light_position_pdf(scene, vertices[0]);
     terms.light_can_be_hit = can_be_hit(scene, vertices[0]);
+    terms.light_in_medium = vertices[0].at.in_medium();
   }
   if (begin == 0 && !same_light)
     terms.direct = settings.sample_direct && !vertices[0].at.infinite()
@@ -146,6 +147,7 @@ double technique_density(const PathTerms& terms, int s) {
 }
 
 double certainty(const PathTerms& terms) {
+  if (terms.light_in_medium) return 0;
   double p = terms.arrival(terms.edges(), -1).probability();
   for (int i = 1; i < terms.edges(); ++i)
     p *= terms[i].connectable ? 0 : terms[i].vertex.pdf_from_camera;

@@ -80,7 +80,7 @@ struct PathTerms {
   std::vector<TermsAt> at;  ///< i = 0 ... k.
   /// Passages of the edges from x_i to x_{i+1}; empty in scenes without passages.
   std::vector<EdgePassage> passages;
-  bool light_can_be_hit = false, camera_can_be_hit = false;
+  bool light_can_be_hit = false, camera_can_be_hit = false, light_in_medium = false;
   /// Density of x_0 in the technique s = 1, which may sample it for x_1.
   double direct = 0;
   std::optional<Vec2> raster;  ///< Raster position; nullopt if the path misses the image.
@@ -157,7 +157,7 @@ struct ManifoldTechnique {
 };
 
 /// The probability that a walk from the camera chooses these lobes, if all of them are delta; else
-/// 0.
+/// 0. Where a walk stops in a medium that glows is never certain.
 double certainty(const PathTerms& terms);
 
 /// The MIS weights of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).

@@ -132,6 +132,7 @@ inline bool go_through(const Walker& walker, double u_leg, bool hit, CameraWalk&
   const Vec3& w = walk.ray.d;
   hit = walker.go_on(walk.ray, u_leg, hit, at, leg);
   walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
+  if (hit && at.in_medium()) walk.certainty = 0;
   return hit;
 }
 

@@ -8,8 +8,11 @@ namespace {
 /// Whether the light, surface or medium of the vertex exists in the scene.
 bool in_scene(const Scene& scene, const Vertex& x) {
   if (x.at.medium != no_medium && x.at.medium >= scene.media().size()) return false;
-  if (x.at.in_medium())
-    return x.kind == VertexKind::inner && !x.delta() && x.at.medium != no_medium;
+  if (x.at.in_medium()) {
+    if (x.delta() || x.at.medium == no_medium || x.kind == VertexKind::camera) return false;
+    const Emitter* light = scene.emitter(x.at);
+    return x.kind == VertexKind::inner || (light && light->index() == x.emitter);
+  }
   const bool on_shape = x.at.shape != SurfacePoint::no_shape;
   if (on_shape) {
     if (x.at.shape >= scene.shapes().size()) return false;

@@ -63,7 +63,7 @@ bool Walker::arrive_at(double distance, const Ray& first, double u_leg, SurfaceP
   for (;;) {
     const double segment = hit ? distance_to(at.p, ray) : ray.t_max;
     if (distance < segment) {
-      if (ray.medium == no_medium || !scene.media()[ray.medium].scatters()) return false;
+      if (ray.medium == no_medium || !scene.media()[ray.medium].stops_walks()) return false;
       at = Scene::medium_point(ray, distance);
       return true;
     }

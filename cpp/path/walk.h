@@ -21,14 +21,26 @@ struct LightSample {
   Spectrum emitted(const Vec3& w) const { return radiance ? *radiance : emitter->eval(x0.at, w); }
 };
 
+/// A light and a position on it as the end of a path; the third number of positions in a volume is
+/// what is left of that which chose the light.
+template <class OnSurface>
+LightSample sample_light(const Scene& scene, const EmitterChoice& choice, const Vec2& u,
+                         double time, double wavelength, OnSurface&& sample) {
+  const Emitter& emitter = *choice.emitter;
+  const bool in_volume = scene.has_media() && emitter.glowing();
+  LightSample light{
+      &emitter, in_volume ? emitter.sample_volume(u, choice.remainder, time) : sample(emitter), {}};
+  light.x0.at.wavelength = wavelength;
+  light.x0.pdf *= choice.probability;
+  if (scene.has_media()) scene.find_medium_at_light(emitter, light.x0);
+  return light;
+}
+
 /// Samples the start of a walk from this light.
 inline LightSample sample_light_position(const Scene& scene, const EmitterChoice& choice,
                                          const Vec2& u, double time, double wavelength) {
-  LightSample light{choice.emitter, choice.emitter->sample_position(u, time), {}};
-  light.x0.at.wavelength = wavelength;
-  light.x0.pdf *= choice.probability;
-  if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
-  return light;
+  return sample_light(scene, choice, u, time, wavelength,
+                      [&](const Emitter& light) { return light.sample_position(u, time); });
 }
 /// Samples the start of a walk: the light by u.x, the position on it by (u.y, u.z).
 inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time,
@@ -41,11 +53,8 @@ inline LightSample sample_direct_position(const Scene& scene, const Vec3& from, 
                                           double wavelength, const EmitterChoice& choice,
                                           const Vec2& u) {
   if (!(choice.probability > 0)) return {choice.emitter, {}, {}};
-  LightSample light{choice.emitter, choice.emitter->sample_direct(from, u, time), {}};
-  light.x0.at.wavelength = wavelength;
-  light.x0.pdf *= choice.probability;
-  if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
-  return light;
+  return sample_light(scene, choice, u, time, wavelength,
+                      [&](const Emitter& light) { return light.sample_direct(from, u, time); });
 }
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from,
                                           const EmitterChoice& choice, const Vec2& u) {

@@ -68,6 +68,7 @@ class PathInverter {
     if (!emitter.delta()) u.position = emitter.invert_position(at(0));
     if ((vertices >= 2 || goes_on) && !emitter.delta_direction())
       u.direction = emitter.invert_ray(at(0), at(1).p);
+    if (emitter.glowing()) u.choice = emitter.invert_third(at(0));
     u.choice = scene_.light_choice().invert(path_[0].emitter, u.choice);
     write(Stream::light, u);
     Spectrum likelihood(1);
@@ -84,6 +85,7 @@ class PathInverter {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     DirectNumbers u = DirectNumbers::draw(any_);
     if (!emitter.delta()) u.position = emitter.invert_direct(at(1).p, at(0));
+    if (emitter.glowing()) u.choice = emitter.invert_third(at(0));
     u.choice = scene_.light_choice().invert_for(path_[0].emitter, at(1).p, u.choice);
     write(Stream::direct, u);
     return true;

@@ -22,6 +22,7 @@ struct EmitterChoice {
   const Emitter* emitter;
   uint32_t index;
   double probability;
+  double remainder = 0;  ///< Uniform in [0, 1): what is left of the number that chose it.
 };
 
 /// A mesh that shines the same everywhere on its front side and that light does not pass, as next-
@@ -72,15 +73,17 @@ class Scene {
   }
   /// The light that the point belongs to, or nullptr.
   const Emitter* emitter(const SurfacePoint& at) const {
-    return at.in_medium() ? nullptr : shapes_[at.shape]->emitter();
+    return at.in_medium() ? media_lights_[at.medium] : shapes_[at.shape]->emitter();
   }
   const Solids& solids() const { return solids_; }
   const Media& media() const { return media_; }
   bool has_media() const { return has_media_; }
-  /// The medium around a point that was sampled on a light, in a scene with media.
-  MediumIndex medium_at_light(const Emitter& light, const SurfacePoint& at) const {
-    return lights_in_many_media_[light.index()] ? medium_around(at, at.ng, outside_)
-                                                : light.surroundings();
+  /// Finds the medium around a point that was sampled on a light, in a scene with media. In a
+  /// volume sampling fails where there is another medium than that which glows.
+  void find_medium_at_light(const Emitter& light, PositionSample& x0) const {
+    x0.at.medium = lights_in_many_media_[light.index()] ? medium_around(x0.at, x0.at.ng, outside_)
+                                                        : light.surroundings();
+    if (light.glowing() && (x0.at.medium == no_medium || emitter(x0.at) != &light)) x0.pdf = 0;
   }
   /// The medium of a point in one.
   const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
@@ -154,13 +157,19 @@ class Scene {
   /// The vertex at infinity that a ray along w ends in.
   static SurfacePoint point_at_infinity(const Vec3& w, double wavelength = rgb_lanes);
 
-  /// Chooses a light; u is rescaled so that it can be used again.
-  EmitterChoice choose_emitter(double& u) const { return choice(light_choice_.choose(u)); }
+  /// Chooses a light.
+  EmitterChoice choose_emitter(double u) const {
+    const LightIndex chosen = light_choice_.choose(u);
+    return choice(chosen, u);
+  }
   double emitter_probability(uint32_t index) const { return light_choice_.probability(index); }
   /// As above, for next-event estimation at the point `from`; probability 0: failed.
-  EmitterChoice choose_emitter_for(const Vec3& from, double& u) const {
-    return choice(light_choice_.choose_for(from, u));
+  EmitterChoice choose_emitter_for(const Vec3& from, double u) const {
+    const LightIndex chosen = light_choice_.choose_for(from, u);
+    return choice(chosen, u);
   }
+  /// Whether the number that chooses a light decides anything.
+  bool needs_light_choice() const { return emitters_.size() > 1 || emitters_[0]->glowing(); }
   double emitter_probability_for(uint32_t index, const Vec3& from) const {
     return light_choice_.probability_for(index, from);
   }
@@ -174,8 +183,8 @@ class Scene {
   size_t bytes() const;  ///< Bytes of the shapes' buffers.
 
  private:
-  EmitterChoice choice(const LightIndex& chosen) const {
-    return {emitters_[chosen.index].get(), chosen.index, chosen.probability};
+  EmitterChoice choice(const LightIndex& chosen, double remainder) const {
+    return {emitters_[chosen.index].get(), chosen.index, chosen.probability, remainder};
   }
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
   /// Puts a ray that starts an edge at this point into its medium. Not inlined: most scenes have
@@ -183,6 +192,8 @@ class Scene {
   [[gnu::noinline]] void enter_medium(const SurfacePoint& at, Ray& ray) const;
   /// Finds all media, and those around lights and the lens; the last shapes are `grouped`.
   void find_media(size_t grouped);
+  /// Finds the lights of media. Throws SceneError if one of these has no end.
+  void find_media_lights();
   /// The medium around a point: that on the near side of the first boundary along w.
   MediumIndex medium_around(const SurfacePoint& at, const Vec3& w, MediumIndex outside) const;
   /// Whether one part of the light may be in another medium than the rest.
@@ -202,8 +213,9 @@ class Scene {
   std::vector<uint32_t> infinite_, backgrounds_;
   bool has_passages_ = false, has_media_ = false, has_coloured_media_ = false;
   Media media_;
-  MediumIndex outside_ = no_medium;         ///< Where no boundary is met.
-  std::vector<bool> lights_in_many_media_;  ///< One for each emitter.
+  MediumIndex outside_ = no_medium;           ///< Where no boundary is met.
+  std::vector<const Emitter*> media_lights_;  ///< One for each medium: its light, or nullptr.
+  std::vector<bool> lights_in_many_media_;    ///< One for each emitter.
   LightChoice light_choice_;
   std::vector<MeshLight> mesh_lights_;  ///< One for each emitter.
   std::vector<LaneMesh> lane_meshes_;   ///< One for each shape.

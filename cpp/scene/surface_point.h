@@ -49,6 +49,18 @@ struct SurfacePoint {
   bool in_medium() const { return kind == PointKind::medium; }
 };
 
+/// A point in a medium.
+inline SurfacePoint point_in_medium(const Vec3& p, MediumIndex medium, double time) {
+  SurfacePoint at;
+  at.p = p;
+  at.ng = {0, 0, 1};
+  at.shading = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  at.kind = PointKind::medium;
+  at.medium = medium;
+  at.time = time;
+  return at;
+}
+
 // Formulas of single paths, in double precision, and of waves, in single precision:
 
 /// Light leaks through or vanishes where a direction is on different sides of the geometric and

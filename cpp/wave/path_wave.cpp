@@ -105,7 +105,7 @@ template <class Numbers>
 void BasicPathWave<Numbers>::read_numbers(int depth) {
   if (rules_.wants(depth + 1)) {
     numbers_.read2(at_.light, begin_, count_, &u_light_x_[0], &u_light_y_[0]);
-    if (scene_->emitters().size() > 1) numbers_.read(at_.choice, begin_, count_, &u_choice_[0]);
+    if (scene_->needs_light_choice()) numbers_.read(at_.choice, begin_, count_, &u_choice_[0]);
   }
   numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
 }

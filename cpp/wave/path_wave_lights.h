@@ -7,8 +7,7 @@ namespace mlt {
 
 template <class Numbers>
 Vec3 BasicPathWave<Numbers>::numbers_for_light(int i) const {
-  const bool several = scene_->emitters().size() > 1;
-  return {several ? u_choice_[i] : 0, u_light_x_[i], u_light_y_[i]};
+  return {scene_->needs_light_choice() ? u_choice_[i] : 0, u_light_x_[i], u_light_y_[i]};
 }
 
 template <class Numbers>

@@ -39,6 +39,7 @@ inline std::vector<std::string> scene_names() {
           "fog",
           "smoke_box",
           "smoke",
+          "fire",
           "mirror",
           "sphere_light",
           "spot",
@@ -59,7 +60,7 @@ inline std::vector<std::string> scene_names() {
 }
 
 inline std::set<std::string> media_scene_names() {
-  return {"fog",          "smoke_box",   "smoke",  "volume_caustic",
+  return {"fog",          "smoke_box",   "smoke",  "fire",   "volume_caustic",
           "spectral_fog", "clipped_fog", "solids", "openpbr"};
 }
 inline std::set<std::string> spectral_scene_names() {

@@ -62,6 +62,55 @@ def test_an_absorbing_slab_passes_what_beer_and_lambert_say(integrator):
     np.testing.assert_allclose(found, expected, rtol=0.05 if integrator == "mlt" else 1e-5)
 
 
+def glow(radiance, sigma_t, albedo=0.0) -> dict:
+    return medium(sigma_t, albedo, emission=colour(radiance))
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "ptracer", "mmlt", "mlt"])
+def test_a_slab_that_glows_is_as_bright_as_what_it_absorbs(integrator):
+    """L_e (1 - e^-tau) for a slab of thickness 2, seen by an orthographic camera."""
+    sensor = camera(type="orthographic")
+    del sensor["fov"]
+    made = scene(sensor=sensor, slab=box(glow((1, 2, 4), SIGMA)))
+    expected = np.array([1, 2, 4]) * (1 - np.exp(-2 * np.array(SIGMA)))
+    np.testing.assert_allclose(mean(made, integrator, 1024, max_depth=1), expected, rtol=0.02)
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "ptracer", "mlt"])
+def test_a_ball_that_glows_is_seen_along_its_chords(integrator):
+    """The mean of 1 - e^(-sigma 2 sqrt(1 - r^2)) over the disk that an orthographic camera sees."""
+    sensor = camera(type="orthographic")
+    del sensor["fov"]
+    ball = {"type": "sphere", "bsdf": {"type": "null"}, "interior": glow(1, 0.9)}
+    tau = 2 * 0.9
+    disk = 1 - 2 / tau**2 * (1 - (1 + tau) * np.exp(-tau))
+    found = mean(scene(sensor=sensor, ball=ball), integrator, 1024, max_depth=1)
+    np.testing.assert_allclose(found, disk * np.pi / 4, rtol=0.02)
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mmlt", "mlt"])
+def test_an_oven_has_the_radiance_of_its_gas(integrator):
+    """Walls that reflect all, and a gas that scatters, absorbs and glows: L_e everywhere."""
+    wall = {"type": "diffuse", "reflectance": 1.0}
+    inside = {"to_world": mlt.Transform().scale(8), "interior": glow((1, 2, 4), 0.5, 0.4)}
+    made = scene(oven={"type": "cube", "bsdf": wall} | inside)
+    found = mean(made, integrator, 512, max_depth=200, rr_depth=200)
+    np.testing.assert_allclose(found, [1, 2, 4], rtol=0.03)
+
+
+def test_what_glows_without_an_end_is_refused():
+    """Around a ball, around the lens, and on both sides of a boundary."""
+    gas = glow(1, 0.9) | {"id": "gas"}
+    ref, ball = {"type": "ref", "id": "gas"}, {"type": "sphere", "center": [0, 0, -2]}
+    for parts in (
+        {"ball": ball | {"exterior": ref}},
+        {"sensor": camera(medium=ref)},
+        {"ball": ball | {"interior": ref, "exterior": ref}},
+    ):
+        with pytest.raises(mlt.SceneError, match="emits light and has no end"):
+            scene(gas=gas, **parts)
+
+
 @pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mmlt", "mlt"])
 def test_a_furnace_of_white_fog_is_white(integrator):
     """Neither a medium of albedo 1 nor an index-matched boundary takes light away."""

@@ -1,6 +1,6 @@
-// The start of paths: a light. Positions are SurfacePoints (area measure; solid angle for lights at
-// infinity; a discrete probability of 1 for delta positions), directions are unit and in world
-// space.
+// The start of paths: a light. Positions are SurfacePoints (area measure; volume in glowing media;
+// solid angle for lights at infinity; a discrete probability of 1 for delta positions), directions
+// are unit and in world space.
 #pragma once
 
 #include "base/object.h"
@@ -51,8 +51,9 @@ inline Bounds bounds_of_box(const Vec3& low, const Vec3& high) {
 
 class Emitter : public Object {
  public:
-  /// The radiance (area lights, lights at infinity) or intensity (point lights) emitted from x0
-  /// along w. For a delta position: the coefficient of the delta.
+  /// The radiance (area lights, lights at infinity), intensity (point lights) or radiance per unit
+  /// of length (glowing media) emitted from x0 along w. For a delta position: the coefficient of
+  /// the delta.
   virtual Spectrum eval(const SurfacePoint& x0, const Vec3& w) const = 0;
 
   /// Samples a position. The densities and inverses below are those at the time of x0.
@@ -86,6 +87,16 @@ class Emitter : public Object {
   virtual Vec2 invert_direct(const Vec3& /*from*/, const SurfacePoint& x0) const {
     return invert_position(x0);
   }
+
+  /// The medium that glows, of a light in a volume (volume_light.h); nullptr for any other light.
+  virtual const Medium* glowing() const { return nullptr; }
+  /// Samples a position in a volume, which takes a third number, and tells it for a position.
+  virtual PositionSample sample_volume(const Vec2& u, double /*third*/, double time) const {
+    return sample_position(u, time);
+  }
+  virtual double invert_third(const SurfacePoint& /*x0*/) const { return 0.5; }
+  /// The box of a volume.
+  virtual void find_box(Vec3& /*low*/, Vec3& /*high*/) const {}
 
   /// The radiance of a mesh that emits the same everywhere on its front side; nullptr for any other
   /// light.

@@ -51,6 +51,10 @@ LightBounds bounds_of(const Emitter& light, double open, double close) {
   LightBounds bounds;
   if (light.delta_direction()) return bounds;  // next-event estimation does not find it
   bounds.power = std::max(0.0, target_luminance(light.power())) * light.sampling_weight();
+  if (light.glowing()) {
+    light.find_box(bounds.low, bounds.high);
+    return bounds;
+  }
   const auto middle = [&](double time) { return light.sample_position(Vec2(0.5), time).at.p; };
   const Vec3 first = middle(open), last = middle(close);
   if (light.shape() && first == last) {

@@ -34,6 +34,11 @@ bool Coefficients::grey() const {
   return is_grey(at(rgb_lanes).extinction) && first_.grey() && (by_albedo_ || second_.grey());
 }
 
+Parameter emission_parameter() {
+  return {"emission", ParamType::radiance, 0.0,
+          "Radiance where the medium is thick; per unit of length it emits sigma_a times that."};
+}
+
 std::vector<Parameter> coefficient_parameters() {
   return {
       {"sigma_t", ParamType::radiance, 1.0, "Extinction coefficient, per unit of length."},

@@ -10,6 +10,9 @@ namespace mlt {
 /// The parameters `sigma_t`, `albedo`, `sigma_s`, `sigma_a`, `material` and `scale`.
 std::vector<Parameter> coefficient_parameters();
 
+/// The parameter `emission`.
+Parameter emission_parameter();
+
 class Coefficients {
  public:
   /// Throws SceneError if they are given twice.

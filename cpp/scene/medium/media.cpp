@@ -24,8 +24,9 @@ MediumIndex Media::add(const MediumPtr& medium) {
 }
 
 bool Media::any_coloured() const {
-  return std::any_of(all_.begin(), all_.end(),
-                     [](const MediumPtr& medium) { return medium->scatters() && !medium->grey(); });
+  return std::any_of(all_.begin(), all_.end(), [](const MediumPtr& medium) {
+    return medium->stops_walks() && !medium->grey();
+  });
 }
 
 }  // namespace mlt

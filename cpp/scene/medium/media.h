@@ -17,7 +17,7 @@ class Media {
 
   bool empty() const { return all_.empty(); }
   size_t size() const { return all_.size(); }
-  /// Whether any scatters light, and is not grey.
+  /// Whether walks stop in any that is not grey.
   bool any_coloured() const;
   const Medium& operator[](MediumIndex index) const { return *all_[index]; }
 

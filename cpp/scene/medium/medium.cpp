@@ -9,7 +9,7 @@ namespace {
 void pass(const Medium& medium, const Flight& flight, Passage& passed) {
   const Spectrum left = exp(-flight.depth);
   passed.transmittance *= left;
-  if (medium.scatters()) passed.flight *= left;
+  if (medium.stops_walks()) passed.flight *= left;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed)
 std::optional<double> fly(const Medium& medium, const Ray& ray, double distance, double& u_leg,
                           Passage& passed) {
   const Spectrum before = passed.likelihood * passed.flight;
-  const double left = medium.scatters() ? u_leg * mean(before) : 0;
+  const double left = medium.stops_walks() ? u_leg * mean(before) : 0;
   const Flight flight = medium.fly(ray, {distance, before, left});
   pass(medium, flight, passed);
   if (flight.stops) return flight.distance;

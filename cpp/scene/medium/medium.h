@@ -1,5 +1,5 @@
-// What fills the space between surfaces: fog, milk, smoke. Light is absorbed and scattered there
-// (Chandrasekhar 1960, "Radiative transfer"; Pharr et al., PBRT 3rd ed., sec. 11.1).
+// What fills the space between surfaces: fog, milk, smoke, fire. Light is absorbed, scattered and
+// emitted there (Chandrasekhar 1960, "Radiative transfer"; Pharr et al., PBRT 3rd ed., sec. 11.1).
 #pragma once
 
 #include "base/object.h"
@@ -18,6 +18,9 @@ class Params;
 struct MediumCoefficients {
   Spectrum extinction{0};  ///< sigma_t: of the light along a ray, what is absorbed or scattered.
   Spectrum scattering{0};  ///< sigma_s: the part of it that is scattered.
+
+  /// sigma_a, the part that is absorbed.
+  Spectrum absorption() const { return max(extinction - scattering, Spectrum(0)); }
 };
 
 class Medium : public Object {
@@ -30,8 +33,15 @@ class Medium : public Object {
   virtual MediumCoefficients at(const Vec3& p, double wavelength) const = 0;
   /// How far light flies along a ray through the medium.
   virtual Flight fly(const Ray& ray, const FlightLimit& limit) const = 0;
-  /// Whether light is scattered, and not only absorbed: then walks stop in the medium.
+  /// Whether light is scattered, and not only absorbed.
   virtual bool scatters() const = 0;
+  /// The light that comes from a point into each direction, per unit of length: sigma_a L_e, where
+  /// L_e is the radiance of the medium where it is thick (PBRT 4th ed., sec. 11.1.2). So what
+  /// absorbs nothing emits nothing.
+  virtual Spectrum emission(const Vec3& /*p*/, double /*wavelength*/) const { return Spectrum(0); }
+  virtual bool emits() const { return false; }
+  /// Whether walks stop in the medium.
+  bool stops_walks() const { return scatters() || emits(); }
   /// Whether the extinction is the same in all channels.
   virtual bool grey() const = 0;
 

@@ -4,13 +4,8 @@
 namespace mlt {
 
 SurfacePoint Scene::medium_point(const Ray& ray, double distance) {
-  SurfacePoint at;
-  at.p = ray.o + (distance - ray.before) * ray.d;
-  at.ng = {0, 0, 1};
-  at.shading = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  at.kind = PointKind::medium;
-  at.medium = ray.medium;
-  at.time = ray.time;
+  const Vec3 p = ray.o + (distance - ray.before) * ray.d;
+  SurfacePoint at = point_in_medium(p, ray.medium, ray.time);
   at.wavelength = ray.wavelength;
   return at;
 }
@@ -27,6 +22,7 @@ MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w, MediumIn
 }
 
 bool Scene::may_cross_boundaries(const Emitter& light, size_t grouped) const {
+  if (light.glowing()) return true;
   if (light.infinite() || light.medium()) return false;
   for (size_t i = shapes_.size() - grouped; i < shapes_.size(); ++i)
     if (media_.is_boundary(static_cast<uint32_t>(i))) return true;  // wherever its instances are
@@ -64,11 +60,32 @@ void Scene::find_media(size_t grouped) {
   for (const EmitterPtr& light : emitters_) {
     lights_in_many_media_.push_back(may_cross_boundaries(*light, grouped));
     MediumIndex around = light->medium() ? media_.add(light->medium()) : outside_;
-    if (!light->medium() && !light->infinite()) {
+    if (!light->medium() && !light->infinite() && !light->glowing()) {
       const SurfacePoint at = light->sample_position(middle, time).at;
       around = medium_around(at, at.ng, outside_);
     }
     light->set_surroundings(around);
+  }
+  find_media_lights();
+}
+
+void Scene::find_media_lights() {
+  media_lights_.resize(media_.size());
+  for (size_t i = 0; i < media_.size(); ++i) {
+    const Medium& medium = media_[static_cast<MediumIndex>(i)];
+    if (!medium.emits()) continue;
+    for (const EmitterPtr& light : emitters_)
+      if (light->glowing() == &medium) media_lights_[i] = light.get();
+    // What a ray from far away comes to first is what lies around all shapes.
+    Vec3 low(0), high(0);
+    if (media_lights_[i]) media_lights_[i]->find_box(low, high);
+    SurfacePoint far = point_in_medium(0.5 * (low + high), no_medium, camera_->time(0.5));
+    far.p.x -= 2 * (bounds_.radius + length(bounds_.center - far.p));
+    if (!media_lights_[i] || outside_ == i || medium_around(far, {1, 0, 0}, outside_) == i)
+      throw SceneError(at(medium.where,
+                          "medium '{}' emits light and has no end; it should be the 'interior' of "
+                          "a shape, and not lie around all of them",
+                          medium.type));
   }
 }
 

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double tolerance = 1e-3;
 
-bool is_closed(const MeshData& mesh) {
-  if (mesh.positions.empty()) return false;
+/// The volume that a mesh encloses.
+std::optional<double> volume_of(const MeshData& mesh) {
+  if (mesh.positions.empty()) return std::nullopt;
   const Vec3 origin(mesh.positions.front());
   Mat3 moments(0);
   Vec3 area(0);
@@ -27,14 +28,18 @@ bool is_closed(const MeshData& mesh) {
   const Mat3 wrong = moments - Mat3(volume);
   double worst = 0;
   for (int i = 0; i < 3; ++i) worst = std::max(worst, max_component(glm::abs(wrong[i])));
-  return volume != 0 && worst < tolerance * std::abs(volume) && length(area) < tolerance * total;
+  const bool is_closed =
+      volume != 0 && worst < tolerance * std::abs(volume) && length(area) < tolerance * total;
+  return is_closed ? std::optional(std::abs(volume)) : std::nullopt;
 }
 
 }  // namespace
 
-bool is_closed(const Shape& shape) {
-  if (const Mesh* mesh = shape.as_mesh()) return is_closed(mesh->data());
-  return dynamic_cast<const Sphere*>(&shape) != nullptr;
+std::optional<double> enclosed_volume(const Shape& shape) {
+  if (const Mesh* mesh = shape.as_mesh()) return volume_of(mesh->data());
+  const auto* sphere = dynamic_cast<const Sphere*>(&shape);
+  if (!sphere) return std::nullopt;
+  return 4 * pi / 3 * sphere->radius() * sqr(sphere->radius());
 }
 
 }  // namespace mlt

@@ -68,12 +68,14 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"spherical", "mmlt"}, Pair{"fisheye", "path"}, Pair{"fisheye", "pssmlt"},
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
         Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"fog", "path"},
-        Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"beam", "ptracer"},
-        Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}, Pair{"clipped", "path"},
-        Pair{"clipped", "mlt"}, Pair{"clipped", "pssmlt"}, Pair{"clipped", "mmlt"},
-        Pair{"clipped_fog", "path"}, Pair{"clipped_fog", "mlt"}, Pair{"clipped_fog", "pssmlt"},
-        Pair{"solids", "path"}, Pair{"solids", "mlt"}, Pair{"solids", "pssmlt"},
-        Pair{"openpbr", "path"}, Pair{"openpbr", "mlt"}, Pair{"openpbr", "pssmlt_bdpt"}),
+        Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"fire", "path"},
+        Pair{"fire", "ptracer"}, Pair{"fire", "pssmlt"}, Pair{"fire", "mmlt"},
+        Pair{"beam", "ptracer"}, Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"},
+        Pair{"clipped", "path"}, Pair{"clipped", "mlt"}, Pair{"clipped", "pssmlt"},
+        Pair{"clipped", "mmlt"}, Pair{"clipped_fog", "path"}, Pair{"clipped_fog", "mlt"},
+        Pair{"clipped_fog", "pssmlt"}, Pair{"solids", "path"}, Pair{"solids", "mlt"},
+        Pair{"solids", "pssmlt"}, Pair{"openpbr", "path"}, Pair{"openpbr", "mlt"},
+        Pair{"openpbr", "pssmlt_bdpt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};

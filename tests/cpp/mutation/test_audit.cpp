@@ -58,6 +58,7 @@ std::vector<Case> short_cases() {
   std::vector<Case> all = cases({"mirrors", "near_specular", "windows"});
   all.push_back({"fog", "propagation"});
   all.push_back({"fog", "mixture"});
+  all.push_back({"fire", "mixture"});
   return all;
 }
 

@@ -70,7 +70,7 @@ inline double naive_stop(const Scene& scene, const Vertex& x, const Vertex& from
   return scene.emitter(x.at) ? std::max(1 - passes, 0.5) : 1 - passes;
 }
 /// What a walk passes on an edge: surfaces, with this probability, and media, whose optical depth
-/// counts where they scatter.
+/// counts where walks stop in them.
 struct NaivePassage {
   double probability = 1;
   Spectrum depth{0};
@@ -124,7 +124,7 @@ inline NaivePassage naive_passage(const Scene& scene, const Path& path, int i) {
   const Medium* medium = naive_medium(scene, b, w);
   double gone = 0;
   const auto go_to = [&](double distance) {
-    if (medium && medium->scatters())
+    if (medium && medium->stops_walks())
       passed.depth += naive_depth(*medium, b.p + gone * w, w, distance - gone, path.wavelength);
     gone = distance;
   };

@@ -117,7 +117,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, InvertPathOn,
                                          "projector", "sphere_light", "smooth_normals", "materials",
                                          "more_materials", "bent_normals", "instances",
                                          "orthographic", "spherical", "fisheye", "daylight",
-                                         "windows", "null_surface", "fog", "smoke_box", "smoke"));
+                                         "windows", "null_surface", "fog", "smoke_box", "smoke",
+                                         "fire"));
 
 // ---- the choice of a technique
 
