@@ -187,6 +187,7 @@ void BasicPathWave<Numbers>::find_in_medium(int i, int depth) {
   SurfacePoint& at = singles_[single_[i]].at;
   at = Scene::medium_point(leg(place).ray, *leg(place).stop);
   arrive(place, walk, &at);
+  walk.certainty = 0;
   if (rules_.wants(depth)) find_light_at_end(place, walk, &at);
 }
 

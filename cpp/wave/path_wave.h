@@ -114,6 +114,7 @@ class BasicPathWave {
     bool disperses;
     double mis, survival;
     Spectrum likelihood;  ///< That with which its path would go on.
+    Spectrum stops;       ///< See `light_stops_`.
     MediumIndex medium;   ///< In which the shadow ray begins.
   };
 
@@ -152,6 +153,7 @@ class BasicPathWave {
   void choose_lights(int depth);
   void choose_other_light(int i, const EmitterChoice& choice, const Vec2& u);
   void sample_other_lights();
+  LightSample sample_light(int i, const Vec3& from, const EmitterChoice& choice, const Vec2& u);
   void light_glossy();
   void queue_lights();
   void queue_near_lights();
@@ -207,6 +209,8 @@ class BasicPathWave {
   // Values of each path of the block:
   int begin_ = 0, count_ = 0;
   Block<uint32_t> emitter_;  ///< That which next-event estimation has chosen.
+  /// The extinction where that is in a medium which glows: a walk may stop there (Arrival::flies).
+  Block<Spectrum> light_stops_;
   Block<double> u_light_x_, u_light_y_, u_choice_, u_lobe_;
   LambertianVertices lambertian_;
   GlossyVertices glossy_;

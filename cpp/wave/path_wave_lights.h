@@ -51,10 +51,7 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choi
       vertex.u = u;
       return;
     }
-    const Ray& ray = walk(i).ray;
-    const LightSample lamp = sample_direct_position(*scene_, Vec3(lambertian_.p[i]), ray.time,
-                                                    ray.wavelength, choice, u);
-    lambertian_.set_lamp(i, lamp, *scene_);
+    lambertian_.set_lamp(i, sample_light(i, Vec3(lambertian_.p[i]), choice, u), *scene_);
     near_lights_ = true;
     return;
   }
@@ -64,13 +61,25 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choi
 }
 
 template <class Numbers>
+LightSample BasicPathWave<Numbers>::sample_light(int i, const Vec3& from,
+                                                 const EmitterChoice& choice, const Vec2& u) {
+  const Ray& ray = walk(i).ray;
+  const LightSample light =
+      sample_direct_position(*scene_, from, ray.time, ray.wavelength, choice, u);
+  const SurfacePoint& x0 = light.x0.at;
+  if (x0.in_medium() && light.x0.pdf > 0)
+    light_stops_[i] = scene_->medium(x0).at(x0.p, x0.wavelength).extinction;
+  return light;
+}
+
+template <class Numbers>
 void BasicPathWave<Numbers>::sample_other_lights() {
   for (SingleVertex& single : singles_) {
     if (!single.samples_light()) continue;
     if (single.choice.emitter->infinite())
       backgrounds_.add(single.choice, single.u_light, single.at.wavelength, single.light);
     else
-      single.light = sample_direct_position(*scene_, single.at, single.choice, single.u_light);
+      single.light = sample_light(single.path, single.at.p, single.choice, single.u_light);
   }
   for (int j = 0; j < sky_count_; ++j) {
     SkyVertex& vertex = sky_vertices_[j];
@@ -110,7 +119,8 @@ inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direc
   ++walk.rays.occluded;
   if (scene_->has_passages())
     lights_to_pass_.push_back(
-        {light, walk.dispersed || direct.disperses, mis, walk.survival, walk.likelihood, medium});
+        {light, walk.dispersed || direct.disperses, mis, walk.survival, walk.likelihood,
+         scene_->emitters()[emitter_[i]]->glowing() ? light_stops_[i] : Spectrum(1), medium});
   shadow_emitter_[shadows_.count()] = emitter_[i];
   shadows_.add(path_[begin_ + i], found, walk.find(walk, found, 0), o, w, length);
 }
@@ -218,7 +228,7 @@ void BasicPathWave<Numbers>::receive_through(int shadow, bool passes_surfaces) {
   Passage seen = passes_surfaces ? scene_->pass_surfaces(ray) : Passage();
   if (ray.medium != no_medium) fly(scene_->media()[ray.medium], ray, ray.before + ray.t_max, seen);
   if (seen.is_blocked()) return;
-  const double goes = Scene::arrival(seen).after(to_pass.likelihood).probability();
+  const double goes = seen.probability * mean(to_pass.likelihood * seen.flight * to_pass.stops);
   const double mis = mis_weight(1, (1 / to_pass.mis - 1) * walk.mis.raise(goes));
   const Color found = recorded(to_pass.light * seen.transmittance * (mis / to_pass.mis),
                                ray.wavelength, to_pass.disperses);
