@@ -7,11 +7,23 @@
 #include <unordered_set>
 
 namespace mlt {
+namespace {
+
+/// The share of seeds that follow no photon, so that chains are found that no photon has found.
+constexpr double blind_share = 0.2;
+
+}  // namespace
 
 uint64_t lobes_of(const Vertex* first, int m) {
   uint64_t key = 1;
   for (int i = 1; i <= m; ++i) key = 4 * key + static_cast<uint64_t>(first[i].lobe);
   return key;
+}
+
+int count_lobes(uint64_t key) {
+  int m = 0;
+  for (; key > 1; key /= 4) ++m;
+  return m;
 }
 
 ManifoldGuide::ManifoldGuide(const Scene& scene) {
@@ -34,16 +46,33 @@ ManifoldGuide::ManifoldGuide(const Scene& scene) {
   }
 }
 
-Vec3 ManifoldGuide::aim(Rng& rng) const {
+ManifoldPhotons::Cell ManifoldGuide::photons_near(const Vertex& x0, const Vertex& y) const {
+  return photons_ ? photons_->near(x0, y) : ManifoldPhotons::Cell();
+}
+
+ManifoldAim ManifoldGuide::aim(const Vertex& x0, const Vertex& y, Rng& rng) const {
+  const ManifoldPhotons::Cell cell = photons_near(x0, y);
+  if (cell.count == 0 || rng.next() < blind_share) return {aim_blindly(rng)};
+  const ManifoldPhoton& photon = cell.first[rng.below(cell.count)];
+  return {photon.aim, photon.lobes};
+}
+
+double ManifoldGuide::lobes_of_seed(const Vertex* first, int m, double lobes) const {
+  const ManifoldPhotons::Cell cell = photons_near(first[0], first[m + 1]);
+  if (cell.count == 0) return lobes;
+  return blind_share * lobes + (1 - blind_share) * cell.share(lobes_of(first, m));
+}
+
+Vec3 ManifoldGuide::aim_blindly(Rng& rng) const {
   const Box& box = boxes_[rng.below(boxes_.size())];
   const double x = rng.next(), y = rng.next();
   return box.low + Vec3(x, y, rng.next()) * (box.high - box.low);
 }
 
 double ManifoldGuide::guess(const Vertex* first, int m, double lobes) const {
-  if (!ratios_) return lobes;
+  if (!ratios_) return lobes_of_seed(first, m, lobes);
   const auto ratio = ratios_->find(lobes_of(first, m));
-  return ratio == ratios_->end() ? 0 : lobes * ratio->second;
+  return ratio == ratios_->end() ? 0 : lobes_of_seed(first, m, lobes) * ratio->second;
 }
 
 namespace {
@@ -55,6 +84,8 @@ constexpr double rare_share = 0.01;
 constexpr double least_rare = 0.04, least_rare_of_lobes = 0.01;
 /// About a second; rays are counted, not seconds, so that each run learns the same.
 constexpr uint64_t most_rays = 1 << 20;
+/// The most rays of photons: a few tenths of a second.
+constexpr uint64_t most_photon_rays = 1 << 19;
 
 /// Samples of bidirectional path tracing that search for all chains.
 class ManifoldLessons {
@@ -131,11 +162,24 @@ class ManifoldLessons {
 
 }  // namespace
 
+std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene) {
+  auto photons = std::make_shared<ManifoldPhotons>();
+  ManifoldSampler seeds(scene, std::make_shared<ManifoldGuide>(scene));
+  RayCounts rays;
+  for (uint64_t i = 0; i < ManifoldPhotons::most && rays.total() < most_photon_rays; ++i) {
+    Rng rng(1, Purpose::manifold, i);
+    seeds.send_photon(rng, rays, *photons);
+  }
+  photons->divide();
+  return photons;
+}
+
 std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules) {
   constexpr uint64_t first_samples = 1024, samples = 8192;
   constexpr int most_searches = 256;  // what is found more rarely would take most of the time
   auto guide = std::make_shared<ManifoldGuide>(scene);
   if (!guide->useful()) return nullptr;
+  guide->follow(send_photons(scene));
   const auto all = std::make_shared<ManifoldGuide>(*guide);
   all->set_most_searches(most_searches);
   ManifoldLessons lessons(scene, rules, all);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "base/rng.h"
+#include "path/manifold_photons.h"
 #include "path/path.h"
 #include "path/path_rules.h"
 
@@ -19,6 +20,14 @@ namespace mlt {
 
 /// A number for the lobes of the chain first[1] ... first[m].
 uint64_t lobes_of(const Vertex* first, int m);
+/// m, for such a number.
+int count_lobes(uint64_t key);
+
+/// How a seed begins.
+struct ManifoldAim {
+  Vec3 at;             ///< A point that its first ray passes through.
+  uint64_t lobes = 0;  ///< The lobes of its chain (see lobes_of); 0: they are drawn.
+};
 
 class ManifoldGuide {
  public:
@@ -27,14 +36,21 @@ class ManifoldGuide {
 
   /// Whether the scene has surfaces with delta lobes.
   bool useful() const { return !boxes_.empty(); }
+  /// Where a seed from x0 begins that is to end near y.
+  ManifoldAim aim(const Vertex& x0, const Vertex& y, Rng& rng) const;
   /// A random point in the bounding box of a shape with delta lobes.
-  Vec3 aim(Rng& rng) const;
-  /// A guess of the probability of finding the chain first[1] ... first[m], whose lobes a walk from
-  /// the light chooses with the probability `lobes`. 0: it is not to be found.
+  Vec3 aim_blindly(Rng& rng) const;
+  /// The probability that a seed from first[0] to first[m + 1] has the lobes of the chain between
+  /// them, which a walk from the light chooses with the probability `lobes`.
+  double lobes_of_seed(const Vertex* first, int m, double lobes) const;
+  /// A guess of the probability of finding this chain. 0: it is not to be found.
   double guess(const Vertex* first, int m, double lobes) const;
 
+  /// Has most seeds follow photons.
+  void follow(std::shared_ptr<const ManifoldPhotons> photons) { photons_ = std::move(photons); }
+
   /// Restricts the guide to chains of these lobes. Such a chain is found `ratio` times as often as
-  /// a walk from the light chooses its lobes.
+  /// a seed has its lobes.
   void choose(std::unordered_map<uint64_t, double> ratios) { ratios_ = std::move(ratios); }
 
   /// The number of searches after which a chain counts as found again.
@@ -46,10 +62,16 @@ class ManifoldGuide {
     Vec3 low, high;
   };
 
+  ManifoldPhotons::Cell photons_near(const Vertex& x0, const Vertex& y) const;
+
   int most_searches_ = 1 << 16;  ///< Enough but for chains that rounding errors have found.
   std::vector<Box> boxes_;
+  std::shared_ptr<const ManifoldPhotons> photons_;
   std::optional<std::unordered_map<uint64_t, double>> ratios_;
 };
+
+/// Photons from the lights of the scene from which chains are searched.
+std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene);
 
 /// The guide to the chains along which rare light comes, by what some samples of bidirectional path
 /// tracing have found; nullptr if there is little of it.

@@ -1,7 +1,8 @@
 // Specular manifold sampling (Zeltner, Georgiev & Jakob 2020, "Specular manifold sampling for
 // rendering high-frequency caustics and glints", sec. 4): a point x_0 of a light and a smooth
-// vertex y are joined across a chain of delta vertices. A seed is a random chain from x_0, and a
-// manifold walk takes its end to y. So small lamps are found through glass and water.
+// vertex y are joined across a chain of delta vertices. A seed is a random chain from x_0, which
+// follows a photon that has arrived near y (manifold_photons.h), and a manifold walk takes its end
+// to y. So small lamps are found through glass and water.
 //
 // Which chain is found is chance. Its probability p has no closed form, but 1 / p is estimated
 // without bias by the number n of searches until one finds the same chain again. With a guess q of
@@ -55,13 +56,18 @@ class ManifoldSampler {
   double guess(const PathTerms& terms) const {
     return guide_->guess(found_.data(), chain_length(), lobes_pdf(terms, chain_length()));
   }
+  /// Sends a photon from a random point of a light; it is added where it arrives.
+  void send_photon(Rng& rng, RayCounts& rays, ManifoldPhotons& photons);
   /// The number of searches until one finds the same again: 1 / p in the mean.
   int find_again(double time, Rng& rng, RayCounts& rays);
 
  private:
-  /// A random chain from x0, with both ends; false if it meets no delta surface.
-  bool draw_seed(const Vertex& x0, double time, Rng& rng, RayCounts& rays);
-  bool search(const Vertex& x0, const SurfacePoint& y, double time, Rng& rng, RayCounts& rays);
+  /// A random chain from x0 through `aim`, with both ends; false if it meets no delta surface.
+  bool draw_seed(const Vertex& x0, const Vec3& aim, double time, Rng& rng, RayCounts& rays);
+  /// The chain from x0 with these lobes, up to the point next to y; false if there is none.
+  bool follow_photon(const Vertex& x0, const ManifoldAim& aim, const SurfacePoint& y, double time,
+                     RayCounts& rays);
+  bool search(const Vertex& x0, const Vertex& y, double time, Rng& rng, RayCounts& rays);
   bool is_found_again() const;
   int chain_length() const { return static_cast<int>(found_.size()) - 2; }
 

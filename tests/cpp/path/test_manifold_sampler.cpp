@@ -11,22 +11,28 @@ using namespace test;
 
 constexpr int max_depth = 7;
 
-BidirectionalSettings with_manifolds(const Scene& scene) {
-  BidirectionalSettings settings = without_roulette(max_depth);
-  settings.manifolds = std::make_shared<ManifoldGuide>(scene);
-  return settings;
+std::shared_ptr<const ManifoldGuide> guide_to(const Scene& scene, bool photons) {
+  auto guide = std::make_shared<ManifoldGuide>(scene);
+  if (photons) guide->follow(send_photons(scene));
+  return guide;
 }
 
-class ManifoldsOf : public testing::TestWithParam<std::string> {
+/// On a scene, without and with photons.
+class ManifoldsOf : public testing::TestWithParam<std::tuple<std::string, bool>> {
  protected:
-  void SetUp() override { scene_ = make_scene(GetParam()).scene; }
+  void SetUp() override { scene_ = make_scene(std::get<0>(GetParam())).scene; }
+  BidirectionalSettings with_manifolds() const {
+    BidirectionalSettings settings = without_roulette(max_depth);
+    settings.manifolds = guide_to(*scene_, std::get<1>(GetParam()));
+    return settings;
+  }
 
   ScenePtr scene_;
 };
 
 /// The sampler caches sums along its walks; the terms of the whole path have the same weights.
 TEST_P(ManifoldsOf, WeighPathsByTheirTerms) {
-  BidirectionalSettings settings = with_manifolds(*scene_);
+  BidirectionalSettings settings = with_manifolds();
   const ManifoldSampler manifolds(*scene_, settings.manifolds);
   for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
     settings.heuristic = heuristic;
@@ -60,10 +66,11 @@ TEST_P(ManifoldsOf, WeighPathsByTheirTerms) {
 /// The mean of it over the samples of the technique alone, and of all others together.
 TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
   const BidirectionalSettings plain = without_roulette(max_depth);
-  const BidirectionalSettings settings = with_manifolds(*scene_);
+  const BidirectionalSettings settings = with_manifolds();
   const ManifoldSampler manifolds(*scene_, settings.manifolds);
   BidirectionalSampler with(*scene_, settings), without(*scene_, plain);
-  constexpr int samples = 20000;
+  // chains that photons miss are found rarely, and then count much
+  const int samples = GetParam() == std::tuple("smooth_glass", true) ? 300000 : 20000;
   constexpr double most =
       20;  // of the light of a sample, alike for both: damped, as a function of x
   double mean[2] = {0, 0}, square[2] = {0, 0};
@@ -106,9 +113,76 @@ TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ManifoldsOf,
-                         testing::Values("caustic", "smooth_glass", "light_under_water",
-                                         "window_caustic", "spinning_instance", "glass_torus"),
-                         [](const auto& info) { return info.param; });
+                         testing::Combine(testing::Values("caustic", "smooth_glass",
+                                                          "light_under_water", "window_caustic",
+                                                          "spinning_instance", "glass_torus"),
+                                          testing::Bool()),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) +
+                                  (std::get<1>(info.param) ? "_photons" : "");
+                         });
+
+/// How many of these searches, from the lights to what the camera sees, find a chain.
+int count_found(const Scene& scene, bool photons, int searches) {
+  BidirectionalSettings settings = without_roulette(max_depth);
+  BidirectionalSampler walks(scene, settings);
+  ManifoldSampler manifolds(scene, guide_to(scene, photons));
+  RayCounts rays;
+  int found = 0;
+  for (int i = 0; i < searches; ++i) {
+    Rng rng(4, Purpose::test, static_cast<uint64_t>(i));
+    RandomSampler sampler(rng);
+    walks.sample(scene.camera().raster().sample(sampler.next2()), sampler, rays);
+    if (walks.camera().size() < 2 || walks.light().size() == 0) continue;
+    const Vertex &x0 = walks.light()[0].vertex, &y = walks.camera()[1].vertex;
+    if (!scene.bsdf(y.at).has_smooth()) continue;
+    found += manifolds.find(x0, y, walks.time(), rng, rays);
+  }
+  return found;
+}
+
+TEST(ManifoldPhotons, LeadToChains) {
+  const ScenePtr scene = make_scene("glass_torus").scene;
+  const int blind = count_found(*scene, false, 5000), led = count_found(*scene, true, 5000);
+  EXPECT_GT(blind, 100);
+  EXPECT_GT(led, 2 * blind);
+}
+
+TEST(ManifoldPhotons, AreBoundedAndNearInTheirCells) {
+  ManifoldPhotons photons;
+  const Vertex x0;
+  Rng rng(5, Purpose::test, 0);
+  for (size_t i = 0; i < ManifoldPhotons::most + 100; ++i) {
+    const double x = rng.next(), y = rng.next();
+    photons.add(x0, VertexKind::inner, {Vec3(x, y, 0), Vec3(x, y, 1), x < 0.5 ? 5u : 4u});
+  }
+  EXPECT_EQ(photons.size(), ManifoldPhotons::most);
+  photons.divide();
+  for (int i = 0; i < 1000; ++i) {
+    Vertex y;
+    y.at.p = {rng.next(), 0.1 + 0.8 * rng.next(), 0};
+    const ManifoldPhotons::Cell cell = photons.near(x0, y);
+    ASSERT_GE(cell.count, 7);
+    ASSERT_LE(cell.count, 16);
+    // a cell has the area of its photons, some 16 / 2^16, and may be four times as long as wide
+    for (uint64_t k = 0; k < cell.count; ++k)
+      ASSERT_LT(length(cell.first[k].at - y.at.p), 4 * std::sqrt(16.0 / ManifoldPhotons::most));
+    if (std::abs(y.at.p.x - 0.5) > 0.1) {
+      EXPECT_EQ(cell.share(5), y.at.p.x < 0.5 ? 1 : 0);
+      EXPECT_EQ(cell.share(4), y.at.p.x < 0.5 ? 0 : 1);
+    }
+    Vertex lens = y;
+    lens.kind = VertexKind::camera;
+    EXPECT_EQ(photons.near(x0, lens).count, 0);
+  }
+}
+
+TEST(ManifoldPhotons, AreTheSameEachTime) {
+  const ScenePtr scene = make_scene("caustic").scene;
+  const auto a = send_photons(*scene), b = send_photons(*scene);
+  EXPECT_GT(a->size(), 1000);
+  EXPECT_EQ(a->size(), b->size());
+}
 
 TEST(ManifoldSampler, IsNotUsedWhereNothingIsSpecular) {
   EXPECT_FALSE(learn_manifolds(*make_scene("cornell").scene, {}));
