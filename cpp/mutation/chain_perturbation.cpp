@@ -82,7 +82,7 @@ bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, Pat
     if (!arrive(y.path[i].at)) return false;
     y.path[i].lobe = x[i].lobe;
     if (i == span.stop) return true;
-    const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
+    const auto out = carried_direction(x, y, i, span, -ray.d, context);
     if (!out) return false;
     ray = walker.leave(y[i].at, *out);
   }
@@ -96,9 +96,11 @@ double ChainPerturbation::kept_distance(const PathState& x, int i, int step, con
 }
 
 std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, const PathState& y,
-                                                         int i, int step, const Vec3& in,
+                                                         int i, const Span& span, const Vec3& in,
                                                          MutationContext& context) const {
+  const int step = span.step;
   if (!x.specular(i)) {
+    if (span.keeps) return x.terms.direction(i, step);
     const int stop = chain_end(x, i, step);
     return perturb(x.terms.direction(i, step), angle(x, i, stop, step), context.rng);
   }
@@ -120,11 +122,13 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, con
 }
 
 double ChainPerturbation::coefficient(const PathState& x, const PathState& y, int i,
-                                      int step) const {
+                                      const Span& span) const {
+  const int step = span.step;
   const SurfacePoint& at = y[i].at;
   const Vec3 in = y.terms.direction(i, -step), out = y.terms.direction(i, step);
   const Arrival arrival = y.terms.arrival(i, step);
   if (!x.specular(i)) {
+    if (span.keeps) return arrival.stops / abs_cos(at, out);
     const int stop = chain_end(x, i, step);
     const double theta = angle_between(out, x.terms.direction(i, step));
     return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out) * arrival.stops;

@@ -4,8 +4,8 @@
 //
 // The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up
 // to `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is
-// kept. At a diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
-// If `stop` is the light, the last ray has to hit a light.
+// kept. At a diffuse vertex in between the direction is perturbed by a small angle (multi-chain) or
+// kept (translucent). If `stop` is the light, the last ray has to hit a light.
 //
 // In media the kind of each vertex is kept, and the distance at which one in a medium follows the
 // one before it: distances are not sampled, but are factors of one delta in both directions.
@@ -38,6 +38,7 @@ class ChainPerturbation {
 
   struct Span {
     int start, stop, step;
+    bool keeps = false;  ///< Whether directions at diffuse vertices are kept.
   };
 
   /// Moves vertices after span.start up to span.stop; the first of them is where `ray` hits. The
@@ -61,7 +62,7 @@ class ChainPerturbation {
     double p = first_coefficient * y.terms.arrival(span.start, s).stops *
                in.step(span.start, span.start + s);
     for (int i = span.start + s; i != span.stop; i += s)
-      p *= coefficient(x, y, i, s) * in.step(i, i + s);
+      p *= coefficient(x, y, i, span) * in.step(i, i + s);
     return p;
   }
 
@@ -88,14 +89,15 @@ class ChainPerturbation {
   }
 
  private:
-  std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
-                                        const Vec3& in, MutationContext& context) const;
+  std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i,
+                                        const Span& span, const Vec3& in,
+                                        MutationContext& context) const;
   /// The distance from vertex i - step that vertex i of y keeps, if it is in a medium; else
   /// infinity.
   double kept_distance(const PathState& x, int i, int step, const Ray& ray) const;
   /// Density of the direction from y's vertex i, in projected solid angle, when x is perturbed, and
   /// of arriving at the next vertex.
-  double coefficient(const PathState& x, const PathState& y, int i, int step) const;
+  double coefficient(const PathState& x, const PathState& y, int i, const Span& span) const;
 
   const Scene* scene_;
   ExponentialRadius image_radius_;

@@ -45,6 +45,7 @@ struct PathState {
     Cached<CameraChains> camera_chains;
     Cached<int> triples;       ///< Number of triples that the manifold perturbation may move.
     Cached<int> propagations;  ///< Number of ways in which the propagation may move a vertex.
+    Cached<int> translucent;   ///< The vertex at which the translucent perturbation ends, or -1.
 
     void invalidate() {
       over_density.invalidate();
@@ -53,6 +54,7 @@ struct PathState {
       camera_chains.invalidate();
       triples.invalidate();
       propagations.invalidate();
+      translucent.invalidate();
     }
   };
   mutable Known known;

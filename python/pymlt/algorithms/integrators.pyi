@@ -218,6 +218,15 @@ class ERPT(Integrator):
         Smallest move on the image, in pixels.
     manifold_largest_share : float, default 0.1
         Largest move on the image, as a share of its diagonal.
+    translucent_perturbation : boolean, default True
+        Use the perturbation of the image position that keeps directions and distances in media
+        and behind rough glass.
+    translucent_weight : float, default 0.2
+        Weight of the translucent mutation among those that suit a path.
+    translucent_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    translucent_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
     tours : float, default 0.1
@@ -253,6 +262,10 @@ class ERPT(Integrator):
     manifold_weight: float
     manifold_smallest_pixels: float
     manifold_largest_share: float
+    translucent_perturbation: bool
+    translucent_weight: float
+    translucent_smallest_pixels: float
+    translucent_largest_share: float
     near_specular: float
     tours: float
     tour_length: float
@@ -285,6 +298,10 @@ class ERPT(Integrator):
         manifold_weight: float = 0.2,
         manifold_smallest_pixels: float = 0.1,
         manifold_largest_share: float = 0.1,
+        translucent_perturbation: bool = True,
+        translucent_weight: float = 0.2,
+        translucent_smallest_pixels: float = 0.1,
+        translucent_largest_share: float = 0.1,
         near_specular: float = 0.1,
         tours: float = 0.1,
         tour_length: float = 100.0,
@@ -388,6 +405,15 @@ class MLT(Integrator):
         Smallest change of the logarithm of the distance.
     propagation_largest_move : float, default 1.0
         Largest change of the logarithm of the distance.
+    translucent_perturbation : boolean, default True
+        Use the perturbation of the image position that keeps directions and distances in media
+        and behind rough glass.
+    translucent_weight : float, default 0.2
+        Weight of the translucent mutation among those that suit a path.
+    translucent_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    translucent_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
     wavelength_mutation : boolean, default True
         Use the another wavelength for the same path; dispersive chains are found again.
     wavelength_weight : float, default 0.2
@@ -467,6 +493,10 @@ class MLT(Integrator):
     propagation_weight: float
     propagation_smallest_move: float
     propagation_largest_move: float
+    translucent_perturbation: bool
+    translucent_weight: float
+    translucent_smallest_pixels: float
+    translucent_largest_share: float
     wavelength_mutation: bool
     wavelength_weight: float
     wavelength_smallest_step: float
@@ -523,6 +553,10 @@ class MLT(Integrator):
         propagation_weight: float = 0.2,
         propagation_smallest_move: float = 0.001,
         propagation_largest_move: float = 1.0,
+        translucent_perturbation: bool = True,
+        translucent_weight: float = 0.2,
+        translucent_smallest_pixels: float = 0.1,
+        translucent_largest_share: float = 0.1,
         wavelength_mutation: bool = True,
         wavelength_weight: float = 0.2,
         wavelength_smallest_step: float = 0.0005,

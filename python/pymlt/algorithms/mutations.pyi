@@ -148,6 +148,27 @@ class Propagation(BuiltIn):
         largest_move: float = 1.0,
     ) -> None: ...
 
+class Translucent(BuiltIn):
+    """The perturbation of the image position that keeps directions and distances in media and
+    behind rough glass.
+
+    Parameters
+    ----------
+    smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
+    """
+
+    smallest_pixels: float
+    largest_share: float
+    def __init__(
+        self,
+        *,
+        smallest_pixels: float = 0.1,
+        largest_share: float = 0.1,
+    ) -> None: ...
+
 class Wavelength(BuiltIn):
     """Another wavelength for the same path; dispersive chains are found again.
 
@@ -178,5 +199,6 @@ __all__ = [
     "MultiChain",
     "Multiplexed",
     "Propagation",
+    "Translucent",
     "Wavelength",
 ]

@@ -110,6 +110,11 @@ def candle(filter: str = "gaussian") -> dict:
     return _load("candle", filter=filter)
 
 
+def skin(filter: str = "gaussian") -> dict:
+    """A slab of skin, half of it behind a pane of rough glass, with a small lamp behind it."""
+    return _load("skin", filter=filter)
+
+
 def smoke(filter: str = "gaussian") -> dict:
     """A plume of smoke, a grid, before a dark wall and beside a low lamp."""
     return _load("smoke", filter=filter)

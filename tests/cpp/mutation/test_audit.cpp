@@ -14,13 +14,20 @@ std::string name_of_case(const testing::TestParamInfo<Case>& info) {
   return info.param.scene + "_" + info.param.mutation;
 }
 
+/// Whether the mutation is for scenes such as this one.
+bool is_for(const std::string& mutation, const std::string& scene) {
+  if (mutation == "propagation") return media_scene_names().count(scene) > 0;
+  if (mutation == "wavelength") return spectral_scene_names().count(scene) > 0;
+  if (mutation == "translucent")
+    return media_scene_names().count(scene) > 0 || scene == "rough_glass";
+  return true;
+}
+
 std::vector<Case> cases(const std::vector<std::string>& scenes) {
   std::vector<Case> all;
   for (const std::string& scene : scenes) {
     for (const MutationPlugin& plugin : mutation_plugins())
-      if ((plugin.name() != "propagation" || media_scene_names().count(scene)) &&
-          (plugin.name() != "wavelength" || spectral_scene_names().count(scene)))
-        all.push_back({scene, plugin.name()});
+      if (is_for(plugin.name(), scene)) all.push_back({scene, plugin.name()});
     all.push_back({scene, "mixture"});
   }
   return all;
@@ -57,6 +64,7 @@ TEST_P(Audit, LeavesTheTargetUnchanged) {
 std::vector<Case> short_cases() {
   std::vector<Case> all = cases({"mirrors", "near_specular", "windows"});
   all.push_back({"fog", "propagation"});
+  all.push_back({"fog", "translucent"});
   all.push_back({"fog", "mixture"});
   all.push_back({"fire", "mixture"});
   return all;
@@ -80,6 +88,11 @@ bool has_paths(const Case& c) {
 /// The edge of a perturbation may pass leaves and panes, or end at them.
 TEST(AuditOfPassages, HoldsForTheLensPerturbation) {
   const AuditReport report = audit_case({"windows", "lens"}, 100000);
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
+}
+
+TEST(AuditOfTranslucence, HoldsBehindRoughGlass) {
+  const AuditReport report = audit_case({"rough_glass", "translucent"}, 200000);
   EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 

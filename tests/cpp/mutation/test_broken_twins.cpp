@@ -159,6 +159,14 @@ std::vector<Twin> twins() {
                                  b = step > 0 ? edit.first : edit.last - 1;
                        return length(x[b - step].at.p - y[b].at.p);
                      }));
+  all.push_back({"cosine", "translucent", "rough_glass",
+                 [](const Scene&, const Mutations&) {
+                   return BrokenTwin::Factor([](const PathState&, const PathState& y, auto&) {
+                     const int first = ChainPerturbation::chain_end(y, y.edges(), -1);
+                     return abs_cos(y[first].at, y.terms.direction(first, -1));
+                   });
+                 },
+                 200000});
   all.push_back({"density_of_the_chain", "wavelength", "prism",
                  [](const Scene& scene, const Mutations&) {
                    return BrokenTwin::Factor([&scene](const PathState&, const PathState& y, auto&) {
