@@ -1,4 +1,4 @@
-"""Mitsuba 3's `path` on a scene file, as a worker of equal_time.py."""
+"""Mitsuba 3's `path`, in media `volpath`, on a scene file, as a worker of equal_time.py."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ def scene_text(path: Path, size: tuple[int, int], max_depth: int, sampler: str) 
         root.remove(foreign)
     for look_at in root.iter("lookAt"):
         look_at.tag = "lookat"
-    path_tracer = ET.SubElement(root, "integrator", type="path")
+    kind = "path" if root.find(".//medium") is None else "volpath"
+    path_tracer = ET.SubElement(root, "integrator", type=kind)
     ET.SubElement(path_tracer, "integer", name="max_depth", value=str(max_depth))
     sensor = root.find("sensor")
     for old in sensor.findall("sampler"):

@@ -9,7 +9,9 @@ namespace {
 TEST(Difference, IsTheSmallestEdit) {
   const ScenePtr scene = make_scene("cornell").scene;
   const PathTarget target = path_target(scene);
-  const PathState x = find_path(target, "LDDE"), other = find_path(target, "LDDDE");
+  const PathState x = find_path(target, "LDDE");
+  const PathState other =
+      find_path(target, "LDDDE", [&](const PathState& y) { return y[1].at.p != x[1].at.p; });
   const auto edit = [](const Edit& e) { return std::vector<int>{e.first, e.last, e.inserted}; };
   EXPECT_EQ(edit(difference(x.path, x.path)), (std::vector<int>{4, 3, 0}));
   Path y = x.path;
