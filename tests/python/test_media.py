@@ -90,7 +90,11 @@ def test_a_ball_that_glows_is_seen_along_its_chords(integrator):
 
 @pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mmlt", "mlt"])
 def test_an_oven_has_the_radiance_of_its_gas(integrator):
-    """Walls that reflect all, and a gas that scatters, absorbs and glows: L_e everywhere."""
+    """Walls that reflect all, and a gas that scatters, absorbs and glows: L_e everywhere.
+
+    ptracer is not asked: it joins vertices to a pinhole in the gas, by 1 / d^2, whose variance is
+    infinite.
+    """
     wall = {"type": "diffuse", "reflectance": 1.0}
     inside = {"to_world": mlt.Transform().scale(8), "interior": glow((1, 2, 4), 0.5, 0.4)}
     made = scene(oven={"type": "cube", "bsdf": wall} | inside)
