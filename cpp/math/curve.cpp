@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "math/colorimetry.h"
+#include "math/planck.h"
 
 #include <fmt/format.h>
 
@@ -10,20 +11,6 @@
 namespace mlt {
 
 namespace {
-
-// Exact in the SI of 2019, in units of m, kg, s and K.
-constexpr double light_speed = 299792458, planck = 6.62607015e-34, boltzmann = 1.380649e-23;
-constexpr double metres_per_nm = 1e-9;
-/// Wien's displacement law: the radiance per wavelength has its maximum at this over T, in nm K
-/// (CODATA 2018).
-constexpr double wien = 2.897771955e6;
-
-/// B(lambda, T) = 2 h c^2 / lambda^5 / (exp(h c / (lambda k T)) - 1), per nm.
-double planck_radiance(double wavelength, double kelvin) {
-  const double w = wavelength * metres_per_nm;
-  const double exponent = planck * light_speed / (w * boltzmann * kelvin);
-  return 2 * planck * sqr(light_speed) / (sqr(sqr(w)) * w * std::expm1(exponent)) * metres_per_nm;
-}
 
 /// The reciprocal of the step between wavelengths, or 0 when steps differ by more than rounding.
 double reciprocal_step(const WavelengthTable& samples) {

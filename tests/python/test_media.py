@@ -90,12 +90,61 @@ def test_a_ball_that_glows_is_seen_along_its_chords(integrator):
 
 @pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mmlt", "mlt"])
 def test_an_oven_has_the_radiance_of_its_gas(integrator):
-    """Walls that reflect all, and a gas that scatters, absorbs and glows: L_e everywhere."""
+    """Walls that reflect all, and a gas that scatters, absorbs and glows: L_e everywhere.
+
+    ptracer is not asked: it joins vertices to a pinhole in the gas, by 1 / d^2, whose variance is
+    infinite.
+    """
     wall = {"type": "diffuse", "reflectance": 1.0}
     inside = {"to_world": mlt.Transform().scale(8), "interior": glow((1, 2, 4), 0.5, 0.4)}
     made = scene(oven={"type": "cube", "bsdf": wall} | inside)
     found = mean(made, integrator, 512, max_depth=200, rr_depth=200)
     np.testing.assert_allclose(found, [1, 2, 4], rtol=0.03)
+
+
+def flame_on_a_grid(**more) -> dict:
+    """Extinction in RGB and radiance that rise along z, in the box from -1 to 1."""
+    to_world = mlt.Transform().translate([-1, -1, -1]).scale(2)
+    rise = np.array([1, 3, 6, 2], dtype=np.float32)[:, None, None]
+    thick = rise[..., None] * np.array(SIGMA, dtype=np.float32)
+    bright = np.array([8, 1, 0, 4], dtype=np.float32)[:, None, None]
+    volume = {"type": "gridvolume", "to_world": to_world}
+    return {
+        "type": "heterogeneous",
+        "sigma_t": volume | {"data": thick},
+        "scale": 0.5,
+        "emission": volume | {"data": bright},
+        "emission_scale": 0.25,
+    } | more
+
+
+def along_the_grid(values, z):
+    """Linear between the middles of the cells of flame_on_a_grid, and constant beyond them."""
+    return np.interp(z, [-0.75, -0.25, 0.25, 0.75], values)
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "ptracer", "mmlt", "mlt"])
+def test_light_along_a_grid_that_glows_is_that_of_a_quadrature(integrator):
+    """The integral of e^(-tau) sigma_t L_e along z, in red, green and blue."""
+    sensor = camera(type="orthographic")
+    del sensor["fov"]
+    made = scene(sensor=sensor, flame=box(flame_on_a_grid(albedo=0.0)))
+    steps = 4000
+    z = 1 - (np.arange(steps) + 0.5) * 2 / steps
+    sigma = 0.5 * along_the_grid([1, 3, 6, 2], z)[:, None] * np.array(SIGMA)
+    tau = (np.cumsum(sigma, axis=0) - sigma / 2) * 2 / steps
+    radiance = 0.25 * along_the_grid([8, 1, 0, 4], z)[:, None]
+    expected = (np.exp(-tau) * sigma * radiance).sum(axis=0) * 2 / steps
+    np.testing.assert_allclose(mean(made, integrator, 1024, max_depth=1), expected, rtol=0.02)
+
+
+@pytest.mark.parametrize("integrator", ["ptracer", "bdpt", "pssmlt", "mmlt", "mlt"])
+def test_a_flame_on_a_grid_is_alike_by_all_algorithms(integrator):
+    """What scatters, absorbs and glows over a floor, seen from outside."""
+    floor = {"type": "sphere", "center": [0, -6, 0], "radius": 4.9}
+    made = scene(flame=box(flame_on_a_grid(albedo=colour((0.8, 0.5, 0.2)))), floor=floor)
+    expected = mean(made, "path", 4096, max_depth=4)
+    np.testing.assert_allclose(mean(made, integrator, 2048, max_depth=4), expected, rtol=0.02)
 
 
 def test_what_glows_without_an_end_is_refused():

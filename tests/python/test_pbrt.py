@@ -9,8 +9,16 @@ import pytest
 import pymlt as mlt
 from pymlt import cli
 from pymlt.formats.files import read_foreign
+from pymlt.formats.imported import Imported
 from pymlt.formats.pbrt.environment import directions, sampled, square_of
-from pymlt.formats.pbrt.spectra import DISPERSIVE, blackbody, luminous
+from pymlt.formats.pbrt.spectra import (
+    DISPERSIVE,
+    WAVELENGTHS,
+    blackbody,
+    luminous,
+    planck,
+    red_green_blue,
+)
 from pymlt.formats.ply import Mesh, write_ply
 
 T = mlt.Transform
@@ -950,6 +958,84 @@ LightSource "infinite"
         for of in (("nanovdb", file), ("uniformgrid", box + density))
     ]
     np.testing.assert_allclose(images[0].mean((0, 1)), images[1].mean((0, 1)), rtol=1e-3)
+
+
+def glowing(type: str, *parts: str) -> Imported:
+    start = f'MakeNamedMedium "fire" "string type" "{type}" "integer nz" 2 '
+    return read(VIEW, start, *parts, FLOOR, LAMP)
+
+
+def test_homogeneous_media_glow():
+    found = read(VIEW, FOG, '"rgb Le" [ 1 2 3 ] "float Lescale" 4', FLOOR, LAMP)
+    assert not found.warnings
+    assert found.scene["fog-medium"]["emission"] == colour(4, 8, 12)
+
+
+def test_grids_glow_by_factors_of_a_colour():
+    """A spectrum becomes the colour of its light, whose luminance is 1."""
+    density = '"float density" [ 1 2 ] "float Lescale" [ 3 .5 ]'
+
+    def emission(*parts: str):
+        found = glowing("uniformgrid", *parts)
+        assert not found.warnings
+        return found.scene["fire-medium"]["emission"]
+
+    data = emission(density, '"rgb Le" [ 1 2 3 ]')["data"]
+    np.testing.assert_allclose(data[1:3, 1, 1], [[3, 6, 9], [0.5, 1, 1.5]])
+    candle = emission(density, '"blackbody Le" 1900')["data"][1, 1, 1]
+    sky = {"type": "constant", "radiance": {"type": "blackbody", "temperature": 1900}}
+    scene = {"type": "scene", "sky": sky, "sensor": {"type": "perspective"}}
+    light = mlt.render(mlt.load_dict(scene, size=(4, 4)), "path", spp=1).mean((0, 1))
+    expected = 3 * light / (light @ [0.2126, 0.7152, 0.0722])
+    np.testing.assert_allclose(candle, expected, atol=0.02 * expected.max())
+    assert emission('"float density" [ 1 2 ] "rgb Le" [ 1 2 3 ] "float Lescale" 2') == colour(
+        2, 4, 6
+    )
+
+
+def test_grids_glow_by_temperatures(nanovdb):
+    heat = '"float temperatureoffset" 100 "float temperaturescale" 1.5 "float Lescale" 2'
+    expected = {"temperature_offset": 100.0, "temperature_scale": 1.5, "emission_scale": 2.0}
+    expected["temperature_normalized"] = True
+    found = glowing("uniformgrid", '"float density" [ 1 2 ] "float temperature" [ 900 1200 ]', heat)
+    assert not found.warnings
+    fire = found.scene["fire-medium"]
+    assert expected.items() <= fire.items()
+    np.testing.assert_array_equal(fire["temperature"]["data"][:, 1, 1], [0, 900, 1200, 0])
+    values = np.full((4, 4, 4), 1000.0)
+    Path("fire.nvdb").write_bytes(nanovdb(values) + nanovdb(values, "temperature"))
+    found = read(
+        VIEW,
+        f'MakeNamedMedium "fire" "string type" "nanovdb" "string filename" "fire.nvdb" {heat}\n',
+        'MediumInterface "fire" ""\nMaterial "interface"\nShape "sphere"\n',
+    )
+    fire = found.scene["fire-medium"]
+    assert expected.items() <= fire.items()
+    assert (fire["temperature"]["grid"], fire["sigma_t"]["grid"]) == ("temperature", "density")
+
+
+def test_a_grid_of_colours_may_glow():
+    parts = '"rgb sigma_a" [ 1 2 3 0 0 0 ]', '"rgb Le" [ 1 2 3 4 5 6 ] "float Lescale" 2'
+    fire = glowing("rgbgrid", *parts).scene["fire-medium"]
+    np.testing.assert_array_equal(fire["emission"]["data"][1:3, 1, 1], [[1, 2, 3], [4, 5, 6]])
+    assert fire["emission_scale"] == 2
+
+
+def test_fire_is_as_bright_as_pbrt_says():
+    """A thick ball of black bodies of 2000 K: their spectra have the value 1 at 1449 nm."""
+    ball = """
+MakeNamedMedium "fire" "string type" "uniformgrid" "float density" [ 1 ]
+    "point3 p0" [ -5000 -5000 -5000 ] "point3 p1" [ 5000 5000 5000 ] "float temperature" [ 2000 ]
+    "rgb sigma_a" [ 20 20 20 ] "rgb sigma_s" [ 0 0 0 ]
+MediumInterface "fire" ""
+Material "interface"
+Translate 0 1 0
+Shape "sphere"
+"""
+    image = mlt.render(mlt.load(written(VIEW, ball)), "path", spp=64)
+    values = [(wave, planck(wave, 2000) / planck(1449, 2000)) for wave in WAVELENGTHS]
+    expected = red_green_blue({"type": "spectrum", "value": values})
+    np.testing.assert_allclose(image[15, 20], expected, atol=0.03 * expected[0])
 
 
 def test_a_grid_of_colours_has_their_sum_and_quotient():

@@ -10,11 +10,12 @@
 namespace mlt {
 namespace {
 
-std::vector<double> volumes(const std::vector<VolumeLight::Box>& boxes) {
-  std::vector<double> all;
-  for (const VolumeLight::Box& box : boxes) all.push_back(box.volume());
-  return all;
-}
+/// Cells along each axis of a box in a medium that varies, and places along each axis of a cell
+/// at which such a medium is asked how bright it is.
+constexpr int most_cells = 32, asked = 3;
+/// The share of the positions that is uniform over the boxes: it finds what lies between the places
+/// that were asked.
+constexpr double uniform_share = 0.1;
 
 }  // namespace
 
@@ -28,10 +29,37 @@ bool VolumeLight::Box::contains(const Vec3& p) const {
 }
 
 VolumeLight::VolumeLight(MediumPtr medium, std::vector<Box> boxes)
-    : medium_(std::move(medium)), boxes_(std::move(boxes)), choice_(volumes(boxes_)) {
+    : medium_(std::move(medium)),
+      boxes_(std::move(boxes)),
+      resolution_(medium_->varies() ? most_cells : 1) {
   id = medium_->id;
   type = medium_->type;
   where = medium_->where;
+  std::vector<double> brightness(boxes_.size() * cells_of_box());
+  double volume = 0, total = 0;
+  for (size_t i = 0; i < brightness.size(); ++i) {
+    const Color mean = mean_emission(i);
+    power_ += 4 * pi * box_of(i).filled / cells_of_box() * mean;
+    brightness[i] = target_luminance(mean);
+    volume += cell_volume(i);
+    total += brightness[i] * cell_volume(i);
+  }
+  std::vector<double> weights;
+  for (size_t i = 0; i < brightness.size(); ++i) {
+    const double bright = total > 0 ? brightness[i] / total : 0;
+    weights.push_back(cell_volume(i) * ((1 - uniform_share) * bright + uniform_share / volume));
+  }
+  choice_ = Discrete(weights);
+}
+
+Color VolumeLight::mean_emission(size_t cell) const {
+  const int n = medium_->varies() ? asked : 1;
+  Color sum(0);
+  for (int i = 0; i < n * n * n; ++i) {
+    const Vec3 in_cell = (Vec3(i % n, i / n % n, i / (n * n)) + 0.5) / double(n);
+    sum += medium_->emission(point_at({cell, in_cell}), rgb_lanes).rgb();
+  }
+  return sum / double(n * n * n);
 }
 
 Spectrum VolumeLight::eval(const SurfacePoint& x0, const Vec3&) const {
@@ -39,30 +67,42 @@ Spectrum VolumeLight::eval(const SurfacePoint& x0, const Vec3&) const {
 }
 
 PositionSample VolumeLight::sample_volume(const Vec2& u, double third, double time) const {
-  const auto [index, z] = choice_.sample_reuse(third);
-  const Box& box = boxes_[index];
-  const Vec3 p = box.low + Vec3(u, z) * (box.high - box.low);
-  const SurfacePoint at = point_in_medium(p, no_medium, time);
-  return {at, box_around(p) == index ? pdf_position(at) : 0};
+  const auto [cell, z] = choice_.sample_reuse(third);
+  const SurfacePoint at = point_in_medium(point_at({cell, Vec3(u, z)}), no_medium, time);
+  return {at, place_of(at.p).cell == cell ? pdf_position(at) : 0};
+}
+double VolumeLight::pdf_position(const SurfacePoint& x0) const {
+  const size_t cell = place_of(x0.p).cell;
+  return choice_.pdf(cell) / cell_volume(cell);
+}
+Vec2 VolumeLight::invert_position(const SurfacePoint& x0) const { return place_of(x0.p).in_cell; }
+double VolumeLight::invert_third(const SurfacePoint& x0) const {
+  const Place place = place_of(x0.p);
+  return choice_.invert(place.cell, place.in_cell.z);
 }
 
+/// The first box around a point, in which it is sampled.
 size_t VolumeLight::box_around(const Vec3& p) const {
   size_t i = 0;
   while (i + 1 < boxes_.size() && !boxes_[i].contains(p)) ++i;
   return i;
 }
 
-Vec3 VolumeLight::place_in(const Box& box, const Vec3& p) {
-  return glm::clamp((p - box.low) / (box.high - box.low), 0.0, 1 - 0x1p-53);
+VolumeLight::Place VolumeLight::place_of(const Vec3& p) const {
+  const size_t index = box_around(p);
+  const Box& box = boxes_[index];
+  const Vec3 in_box = glm::clamp((p - box.low) / (box.high - box.low), 0.0, 1 - 0x1p-53);
+  const Vec3 x = double(resolution_) * in_box, i = glm::floor(x);
+  const double cell = (i.z * resolution_ + i.y) * resolution_ + i.x;
+  return {index * cells_of_box() + static_cast<size_t>(cell), x - i};
 }
 
-Vec2 VolumeLight::invert_position(const SurfacePoint& x0) const {
-  return place_in(boxes_[box_around(x0.p)], x0.p);
-}
-
-double VolumeLight::invert_third(const SurfacePoint& x0) const {
-  const size_t index = box_around(x0.p);
-  return choice_.invert(index, place_in(boxes_[index], x0.p).z);
+Vec3 VolumeLight::point_at(const Place& place) const {
+  const Box& box = box_of(place.cell);
+  const auto cell = static_cast<int>(place.cell % cells_of_box());
+  const Vec3 i(cell % resolution_, cell / resolution_ % resolution_,
+               cell / (resolution_ * resolution_));
+  return box.low + (i + place.in_cell) / double(resolution_) * (box.high - box.low);
 }
 
 RaySample VolumeLight::sample_ray(const SurfacePoint& x0, const Vec2& u) const {
@@ -71,19 +111,6 @@ RaySample VolumeLight::sample_ray(const SurfacePoint& x0, const Vec2& u) const {
 double VolumeLight::pdf_ray(const SurfacePoint&, const Vec3&) const { return uniform_sphere_pdf(); }
 Vec2 VolumeLight::invert_ray(const SurfacePoint& x0, const Vec3& x1) const {
   return invert_uniform_sphere(normalize(x1 - x0.p));
-}
-
-/// 4 pi times the integral of the emission over the shapes, as if none lay in another one.
-Color VolumeLight::power() const {
-  constexpr int n = 8;  // places along each axis of a box at which the medium is asked
-  Color sum(0);
-  for (const Box& box : boxes_)
-    for (int i = 0; i < n * n * n; ++i) {
-      const Vec3 place = (Vec3(i % n, i / n % n, i / (n * n)) + 0.5) / double{n};
-      const Vec3 p = box.low + place * (box.high - box.low);
-      sum += medium_->emission(p, rgb_lanes).rgb() * (4 * pi * box.filled / (n * n * n));
-    }
-  return sum;
 }
 
 void VolumeLight::find_box(Vec3& low, Vec3& high) const {

@@ -1,5 +1,6 @@
-// The light of a medium that glows. Its positions lie in the boxes of the shapes that it fills, its
-// directions are uniform over the sphere. Where a box reaches beyond the medium sampling fails
+// The light of a medium that glows. Its positions lie in the boxes of the shapes that it fills, and
+// where the medium varies, more of them in the cells of a box that are brighter; its directions are
+// uniform over the sphere. Where a box reaches beyond the medium sampling fails
 // (Scene::find_medium_at_light), so that the density is known for shapes of any form.
 #pragma once
 
@@ -28,12 +29,14 @@ class VolumeLight final : public Emitter {
   PositionSample sample_position(const Vec2& u, double time) const override {
     return sample_volume(u, 0.5, time);
   }
-  double pdf_position(const SurfacePoint&) const override { return 1 / choice_.total(); }
+  double pdf_position(const SurfacePoint& x0) const override;
   Vec2 invert_position(const SurfacePoint& x0) const override;
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override;
   double pdf_ray(const SurfacePoint& x0, const Vec3& w) const override;
   Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const override;
-  Color power() const override;
+  /// 4 pi times the integral of the emission over the shapes, as if none lay in another one, and as
+  /// if each were spread evenly over its box.
+  Color power() const override { return power_; }
 
   const Medium* glowing() const override { return medium_.get(); }
   PositionSample sample_volume(const Vec2& u, double third, double time) const override;
@@ -41,14 +44,25 @@ class VolumeLight final : public Emitter {
   void find_box(Vec3& low, Vec3& high) const override;
 
  private:
-  /// The first box around a point, in which it is sampled.
+  /// A cell, counted over those of all boxes, and a place in it, from 0 to 1.
+  struct Place {
+    size_t cell;
+    Vec3 in_cell;
+  };
   size_t box_around(const Vec3& p) const;
-  /// A place in a box, from 0 to 1.
-  static Vec3 place_in(const Box& box, const Vec3& p);
+  Place place_of(const Vec3& p) const;
+  Vec3 point_at(const Place& place) const;
+
+  size_t cells_of_box() const { return size_t(resolution_) * resolution_ * resolution_; }
+  const Box& box_of(size_t cell) const { return boxes_[cell / cells_of_box()]; }
+  double cell_volume(size_t cell) const { return box_of(cell).volume() / cells_of_box(); }
+  Color mean_emission(size_t cell) const;
 
   MediumPtr medium_;
   std::vector<Box> boxes_;
-  Discrete choice_;  ///< The choice of a box, by volume.
+  int resolution_;   ///< Cells along each axis of a box.
+  Discrete choice_;  ///< The choice of a cell.
+  Color power_{0};
 };
 
 /// The lights of all media that glow inside of these shapes, or of those of their groups.

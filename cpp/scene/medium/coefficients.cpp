@@ -34,8 +34,8 @@ bool Coefficients::grey() const {
   return is_grey(at(rgb_lanes).extinction) && first_.grey() && (by_albedo_ || second_.grey());
 }
 
-Parameter emission_parameter() {
-  return {"emission", ParamType::radiance, 0.0,
+Parameter emission_parameter(ParamType type) {
+  return {"emission", type, 0.0,
           "Radiance where the medium is thick; per unit of length it emits sigma_a times that."};
 }
 

@@ -10,8 +10,8 @@ namespace mlt {
 /// The parameters `sigma_t`, `albedo`, `sigma_s`, `sigma_a`, `material` and `scale`.
 std::vector<Parameter> coefficient_parameters();
 
-/// The parameter `emission`.
-Parameter emission_parameter();
+/// The parameter `emission`, a radiance or a volume.
+Parameter emission_parameter(ParamType type);
 
 class Coefficients {
  public:

@@ -3,6 +3,7 @@
 // holds for homogeneous media holds here.
 #include "base/registry.h"
 #include "scene/medium/medium.h"
+#include "scene/medium/radiance.h"
 #include "scene/phase/isotropic.h"
 #include "scene/volume/volume.h"
 
@@ -15,6 +16,7 @@ class Heterogeneous final : public Medium {
       : Medium(phase_param(params)),
         extinction_(volume_param(params, "sigma_t")),
         albedo_(volume_param(params, "albedo")),
+        radiance_(params),
         scale_(params.real_in("scale", 0, 1e12)) {
     if (max_component(albedo_->maximum()) > 1)
       params.fail("albedo", fmt::format("reaches {:f}, but must lie between 0 and 1",
@@ -32,21 +34,33 @@ class Heterogeneous final : public Medium {
   bool scatters() const override {
     return scale_ > 0 && !is_black(albedo_->maximum() * extinction_->maximum());
   }
+  Spectrum emission(const Vec3& p, double wavelength) const override {
+    const Spectrum radiance = radiance_.at(p, wavelength);
+    return is_black(radiance) ? radiance : at(p, wavelength).absorption() * radiance;
+  }
+  bool emits() const override {
+    return scale_ > 0 && !is_black(extinction_->maximum() * radiance_.maximum());
+  }
+  bool varies() const override { return true; }
   bool grey() const override { return extinction_->grey(); }
 
  private:
   VolumePtr extinction_, albedo_;
+  MediumRadiance radiance_;  ///< L_e.
   double scale_;
 };
 
 }  // namespace
 
 Plugin medium_heterogeneous() {
+  std::vector<Parameter> parameters = {
+      {"sigma_t", ParamType::volume, 1.0, "Extinction coefficient, per unit of length."},
+      {"albedo", ParamType::volume, 0.75, "Share of the extinction that is scattered."},
+      {"scale", ParamType::real, 1.0, "Factor of the extinction."}};
+  for (Parameter& parameter : radiance_parameters()) parameters.push_back(std::move(parameter));
   return make_plugin<Heterogeneous>(
-      "medium", "heterogeneous", "A medium that varies in space: smoke, clouds.",
-      {{"sigma_t", ParamType::volume, 1.0, "Extinction coefficient, per unit of length."},
-       {"albedo", ParamType::volume, 0.75, "Share of the extinction that is scattered."},
-       {"scale", ParamType::real, 1.0, "Factor of the extinction."}},
+      "medium", "heterogeneous", "A medium that varies in space: smoke, clouds, fire.",
+      std::move(parameters),
       {"majorant_resolution_factor", "majorant_grid", "sample_emitters", "majorant_factor"});
 }
 

@@ -40,7 +40,7 @@ class Homogeneous final : public Medium {
 
 Plugin medium_homogeneous() {
   std::vector<Parameter> parameters = coefficient_parameters();
-  parameters.push_back(emission_parameter());
+  parameters.push_back(emission_parameter(ParamType::radiance));
   return make_plugin<Homogeneous>("medium", "homogeneous", "A medium that is the same everywhere.",
                                   std::move(parameters));
 }

@@ -40,6 +40,8 @@ class Medium : public Object {
   /// absorbs nothing emits nothing.
   virtual Spectrum emission(const Vec3& /*p*/, double /*wavelength*/) const { return Spectrum(0); }
   virtual bool emits() const { return false; }
+  /// Whether what it emits varies in space.
+  virtual bool varies() const { return false; }
   /// Whether walks stop in the medium.
   bool stops_walks() const { return scatters() || emits(); }
   /// Whether the extinction is the same in all channels.

@@ -116,19 +116,18 @@ SpectralColor to_spectral(Params& params, const std::string& name, SpectrumUse u
   return {Color(params.real(name)), meaning_of(use)};
 }
 
-namespace {
-
-bool is_emission(const Params& params, const std::string& name) {
-  const ParamType type = params.schema().find(name)->type;
-  return type == ParamType::radiance || type == ParamType::emission || type == ParamType::volume;
-}
-
-/// Refuses light that would overflow the floats of an image, wherever it goes.
 void check_brightness(const Params& params, const std::string& name, const Color& light) {
   if (!(max_component(light) <= brightest_light))
     params.fail(name,
                 fmt::format("reaches {:g}, but must be at most {:g}, so that images can hold it",
                             max_component(light), brightest_light));
+}
+
+namespace {
+
+bool is_emission(const Params& params, const std::string& name) {
+  const ParamType type = params.schema().find(name)->type;
+  return type == ParamType::radiance || type == ParamType::emission || type == ParamType::volume;
 }
 
 SpectralColor color_from_0(Params& params, const std::string& name) {

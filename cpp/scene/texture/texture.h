@@ -63,6 +63,8 @@ TexturePtr texture_param(Params& params, const std::string& name);
 TexturePtr unbounded_texture_param(Params& params, const std::string& name);
 /// The colour parameter `name` (type reflectance or radiance).
 SpectralColor spectral_param(Params& params, const std::string& name);
+/// Refuses light that would overflow the floats of an image, wherever it goes.
+void check_brightness(const Params& params, const std::string& name, const Color& light);
 inline Color color_param(Params& params, const std::string& name) {
   return spectral_param(params, name).rgb();
 }

@@ -10,9 +10,10 @@ namespace {
 class ConstVolume final : public Volume {
  public:
   explicit ConstVolume(const SpectralColor& value)
-      : value_(value.meaning(RgbMeaning::coefficient)) {}
+      : value_(value.meaning(RgbMeaning::coefficient)), light_(value.meaning(RgbMeaning::light)) {}
 
   Spectrum at(const Vec3&, double wavelength) const override { return value_.at(wavelength); }
+  Spectrum light_at(const Vec3&, double wavelength) const override { return light_.at(wavelength); }
   Color maximum() const override { return value_.rgb(); }
   bool grey() const override { return value_.grey(); }
   Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const override {
@@ -20,7 +21,7 @@ class ConstVolume final : public Volume {
   }
 
  private:
-  SpectralColor value_;
+  SpectralColor value_, light_;
 };
 
 /// In a box it is a grid of one value.

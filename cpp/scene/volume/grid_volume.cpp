@@ -133,6 +133,10 @@ Spectrum GridVolume::at(const Vec3& p, double wavelength) const {
   return wavelength < 0 ? Spectrum(rgb) : LinearUpsampling(wavelength)(rgb);
 }
 
+Spectrum GridVolume::light_at(const Vec3& p, double wavelength) const {
+  return wavelength < 0 ? at(p, wavelength) : at(p, wavelength) * daylight(wavelength);
+}
+
 Flight GridVolume::fly(const Ray& ray, const FlightLimit& limit, double scale) const {
   const Vec3 o = transform_point(to_grid_, ray.o - ray.before * ray.d),
              d = transform_vector(to_grid_, ray.d);

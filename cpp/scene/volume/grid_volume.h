@@ -12,6 +12,7 @@ class GridVolume final : public Volume {
   GridVolume(Grid grid, const Mat4& to_world);
 
   Spectrum at(const Vec3& p, double wavelength) const override;
+  Spectrum light_at(const Vec3& p, double wavelength) const override;
   Color maximum() const override { return grid_.maximum(); }
   bool grey() const override { return !grid_.is_coloured(); }
   Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const override;

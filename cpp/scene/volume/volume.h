@@ -1,4 +1,4 @@
-// A quantity that varies in space: the extinction or the albedo of a medium.
+// A quantity that varies in space: the extinction, the albedo or the emission of a medium.
 #pragma once
 
 #include "base/params.h"
@@ -10,6 +10,8 @@ class Volume : public Object {
  public:
   /// `wavelength`: that of the path (wavelengths.h).
   virtual Spectrum at(const Vec3& p, double wavelength) const = 0;
+  /// The value as a radiance: what is given as RGB is light of that colour (RgbMeaning::light).
+  virtual Spectrum light_at(const Vec3& p, double wavelength) const = 0;
   virtual Color maximum() const = 0;
   /// Whether it is the same in all channels.
   virtual bool grey() const = 0;

@@ -56,7 +56,9 @@ def plugins(scene: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def emits(plugin: dict[str, Any]) -> bool:
-    """Whether it is a light, or a shape that is one."""
+    """Whether it is a light, a shape that is one, or a medium that glows."""
+    if plugin["type"] in _core.names("medium"):
+        return not {"emission", "temperature"}.isdisjoint(plugin)
     return "emitter" in plugin or plugin["type"] in _core.names("emitter")
 
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .glowing import glow, glow_of_grid, heat
+from .grids import grid, volume
 from .params import Params
 from .spectra import numbers
 
@@ -40,13 +42,13 @@ class Interface:
 
 def medium(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
     """A medium; None, with a warning, for those without a counterpart."""
-    make = MEDIA.get(params.type)
-    if make is None:
+    if params.type == "nanovdb":
+        made = nanovdb(params, to_world, (folder / params.text("filename")).resolve())
+    elif make := MEDIA.get(params.type):
+        made = make(params, to_world)
+    else:
         params.warn(f"the medium {params.type!r} has no counterpart")
         return None
-    made = make(params, to_world)
-    if params.type == "nanovdb":
-        made["sigma_t"]["filename"] = str((folder / params.text("filename")).resolve())
     if g := params.number("g", 0):
         made["phase"] = {"type": "hg", "g": g}
     params.finish()
@@ -57,27 +59,32 @@ def homogeneous(params: Params, to_world: np.ndarray) -> dict[str, Any]:
     scale = params.number("scale", 1)
     if preset := params.text("preset"):
         if preset in PRESETS:
-            return {"type": "homogeneous", "material": PRESETS[preset], "scale": scale}
+            milk = {"type": "homogeneous", "material": PRESETS[preset], "scale": scale}
+            return milk | glow(params)
         params.warn(f"the medium preset {preset!r} is not known; it is taken as milk")
     sigma = {name: params.colour(name, MILK[name]) for name in MILK}
-    return {"type": "homogeneous", "scale": scale} | sigma
+    return {"type": "homogeneous", "scale": scale} | sigma | glow(params)
 
 
 def uniform_grid(params: Params, to_world: np.ndarray) -> dict[str, Any]:
     """Coefficients everywhere alike, times a density."""
     extinction, albedo = _coefficients(params)
-    density = _grid(params, "density", 1)
+    density = grid(params, "density", 1)
     grey = extinction.min() == extinction.max()
     values = density * extinction[0] if grey else density[..., None] * extinction
-    return _heterogeneous(params, _volume(params, to_world, values), albedo)
+    made = _heterogeneous(params, volume(params, to_world, values), albedo)
+    return made | glow_of_grid(params, to_world)
 
 
-def nanovdb(params: Params, to_world: np.ndarray) -> dict[str, Any]:
-    """The same with a density from a file, of which a grid of temperatures does not glow."""
+def nanovdb(params: Params, to_world: np.ndarray, path: Path) -> dict[str, Any]:
+    """The same with a density from a file, which may have a grid of temperatures, too."""
     extinction, albedo = _coefficients(params)
     factor = {"type": "rgb", "value": extinction.tolist()}
-    volume = {"type": "nanovdb", "grid": "density", "to_world": to_world, "scale": factor}
-    return _heterogeneous(params, volume, albedo)
+    file = {"type": "nanovdb", "filename": str(path), "to_world": to_world}
+    made = _heterogeneous(params, file | {"grid": "density", "scale": factor}, albedo)
+    if path.is_file() and b"temperature\0" in path.read_bytes():
+        made |= heat(params, file | {"grid": "temperature"})
+    return made
 
 
 def rgb_grid(params: Params, to_world: np.ndarray) -> dict[str, Any]:
@@ -85,12 +92,16 @@ def rgb_grid(params: Params, to_world: np.ndarray) -> dict[str, Any]:
     import numpy as np
 
     absorbed, scattered = (
-        _grid(params, name, 3) if params.get(name) else np.ones((1, 1, 1, 3)) for name in MILK
+        grid(params, name, 3) if params.get(name) else np.ones((1, 1, 1, 3)) for name in MILK
     )
     extinction = absorbed + scattered
     albedo = np.divide(scattered, extinction, where=extinction > 0, out=np.zeros_like(extinction))
-    volume = _volume(params, to_world, extinction)
-    return _heterogeneous(params, volume, _volume(params, to_world, albedo, "edge"))
+    share = volume(params, to_world, albedo, "edge")
+    made = _heterogeneous(params, volume(params, to_world, extinction), share)
+    if params.get("Le"):
+        made["emission"] = volume(params, to_world, grid(params, "Le", 3))
+        made["emission_scale"] = params.number("Lescale", 1)
+    return made
 
 
 def _coefficients(params: Params) -> tuple[np.ndarray, list[float]]:
@@ -103,44 +114,9 @@ def _coefficients(params: Params) -> tuple[np.ndarray, list[float]]:
     return extinction, albedo.tolist()
 
 
-def _heterogeneous(params: Params, volume: dict[str, Any], albedo: Any) -> dict[str, Any]:
+def _heterogeneous(params: Params, extinction: dict[str, Any], albedo: Any) -> dict[str, Any]:
     scale = params.number("scale", 1)
-    return {"type": "heterogeneous", "sigma_t": volume, "albedo": albedo, "scale": scale}
-
-
-def _grid(params: Params, name: str, channels: int) -> np.ndarray:
-    """(depth, height, width[, 3])."""
-    size = [int(params.number(n, 1)) for n in ("nz", "ny", "nx")]
-    values = params.array(name, channels)
-    if values is None:
-        raise params.where.error(f"a {params.type} needs {name!r}")
-    if min(size) < 1 or len(values) != size[0] * size[1] * size[2]:
-        depth, height, width = size
-        raise params.where.error(
-            f"{name!r} has {len(values)} values, but nx, ny and nz say {width} x {height} x {depth}"
-        )
-    return values.reshape(*size, *([3] if channels == 3 else []))
-
-
-def _volume(
-    params: Params, to_world: np.ndarray, values: np.ndarray, border: str = "constant"
-) -> dict[str, Any]:
-    """A grid from p0 to p1. Outside of it pbrt's values are 0, between which and the outermost ones
-    it interpolates, too: so a layer of zeros follows, or with "edge" of the outermost values.
-    """
-    import numpy as np
-
-    corners = [params.array(name, 3) for name in ("p0", "p1")]
-    low = np.zeros(3) if corners[0] is None else corners[0][0]
-    high = np.ones(3) if corners[1] is None else corners[1][0]
-    cell = (high - low) / values.shape[2::-1]
-    placed = np.eye(4)
-    placed[:3, :3] = np.diag(high - low + 2 * cell)
-    placed[:3, 3] = low - cell
-    layer = [(1, 1)] * 3 + [(0, 0)] * (values.ndim - 3)
-    data = np.pad(values, layer, mode=border).astype(np.float32)  # type: ignore[call-overload]
-    return {"type": "gridvolume", "data": data, "to_world": to_world @ placed}
+    return {"type": "heterogeneous", "sigma_t": extinction, "albedo": albedo, "scale": scale}
 
 
 MEDIA = {"homogeneous": homogeneous, "uniformgrid": uniform_grid, "rgbgrid": rgb_grid}
-MEDIA |= {"nanovdb": nanovdb}

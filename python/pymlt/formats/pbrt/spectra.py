@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ..imported import Imported, rgb
@@ -116,11 +117,40 @@ def planck(nanometres: float, kelvin: float) -> float:
     return (500 / nanometres) ** 5 / math.expm1(0.014387769 / (wave * kelvin))
 
 
-def luminous(nanometres: float) -> float:
-    """The CIE 1931 function y, by the fit of Wyman, Sloan & Shirley 2013, eq. 4."""
+#: CIE 1931's x, y and z as sums of lobes (height, centre, width below and above it), in nm: the fit
+#: of Wyman, Sloan & Shirley 2013, eq. 4.
+X = (1.056, 599.8, 37.9, 31.0), (0.362, 442.0, 16.0, 26.7), (-0.065, 501.1, 20.4, 26.2)
+Y = (0.821, 568.8, 46.9, 40.5), (0.286, 530.9, 16.3, 31.1)
+Z = (1.217, 437.0, 11.8, 36.0), (0.681, 459.0, 26.0, 13.8)
+#: Red, green and blue of linear Rec. 709 from X, Y and Z.
+FROM_XYZ = [3.240479, -1.537150, -0.498535], [-0.969256, 1.875991, 0.041556]
+FROM_XYZ += ([0.055648, -0.204043, 1.057311],)
+
+
+def matching(lobes: Iterable[tuple[float, float, float, float]], nanometres: float) -> float:
+    """One of the CIE's functions X, Y and Z."""
 
     def lobe(height: float, centre: float, below: float, above: float) -> float:
         width = below if nanometres < centre else above
         return height * math.exp(-0.5 * ((nanometres - centre) / width) ** 2)
 
-    return lobe(0.821, 568.8, 46.9, 40.5) + lobe(0.286, 530.9, 16.3, 31.1)
+    return sum(lobe(*given) for given in lobes)
+
+
+def luminous(nanometres: float) -> float:
+    """The CIE 1931 function y."""
+    return matching(Y, nanometres)
+
+
+def red_green_blue(value: Any) -> list[float]:
+    """A colour as three numbers; a spectrum as the colour of its light, cut off at 0."""
+    if not isinstance(value, dict) or value["type"] != "spectrum":
+        return numbers(value)
+    waves, heights = zip(*value["value"], strict=True)
+    even = sum(luminous(at) for at in WAVELENGTHS)
+    xyz = [
+        sum(matching(lobes, at) * _between(waves, heights, at) for at in WAVELENGTHS) / even
+        for lobes in (X, Y, Z)
+    ]
+    rows = (sum(m * v for m, v in zip(row, xyz, strict=True)) for row in FROM_XYZ)
+    return [max(0.0, v) for v in rows]
