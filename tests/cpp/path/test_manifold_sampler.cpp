@@ -184,6 +184,12 @@ TEST(ManifoldPhotons, AreTheSameEachTime) {
   EXPECT_EQ(a->size(), b->size());
 }
 
+TEST(ManifoldPhotons, AreFewIfTheirRaysAre) {
+  const auto few = send_photons(*make_scene("caustic").scene, 1 << 10);
+  EXPECT_GT(few->size(), 10);
+  EXPECT_LT(few->size(), 1 << 10);
+}
+
 TEST(ManifoldSampler, IsNotUsedWhereNothingIsSpecular) {
   EXPECT_FALSE(learn_manifolds(*make_scene("cornell").scene, {}));
 }
