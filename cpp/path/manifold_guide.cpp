@@ -82,21 +82,20 @@ constexpr double rare_share = 0.01;
 /// The least share of rare light for which chains are searched, and that of chains with the same
 /// lobes.
 constexpr double least_rare = 0.04, least_rare_of_lobes = 0.01;
-/// About a second; rays are counted, not seconds, so that each run learns the same.
-constexpr uint64_t most_rays = 1 << 20;
-/// The most rays of photons: a few tenths of a second.
-constexpr uint64_t most_photon_rays = 1 << 19;
 
 /// Samples of bidirectional path tracing that search for all chains.
 class ManifoldLessons {
  public:
   ManifoldLessons(const Scene& scene, const PathRules& rules,
-                  const std::shared_ptr<const ManifoldGuide>& all)
-      : scene_(&scene), manifolds_(scene, all), paths_(scene, settings(rules, all)) {}
+                  const std::shared_ptr<const ManifoldGuide>& all, uint64_t most_rays)
+      : scene_(&scene),
+        most_rays_(most_rays),
+        manifolds_(scene, all),
+        paths_(scene, settings(rules, all)) {}
 
-  /// Takes samples until there are `count`, or they have taken `most_rays`.
+  /// Takes samples until there are `count`, or they have taken the most rays.
   void take(uint64_t count) {
-    for (; taken_ < count && rays_.total() < most_rays; ++taken_) {
+    for (; taken_ < count && rays_.total() < most_rays_; ++taken_) {
       Rng rng(0, Purpose::manifold, taken_);
       RandomSampler sampler(rng);
       paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays_);
@@ -150,6 +149,7 @@ class ManifoldLessons {
   }
 
   const Scene* scene_;
+  uint64_t most_rays_;
   ManifoldSampler manifolds_;
   BidirectionalSampler paths_;
   std::unordered_map<uint64_t, Chains> classes_;
@@ -162,11 +162,11 @@ class ManifoldLessons {
 
 }  // namespace
 
-std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene) {
+std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene, uint64_t most_rays) {
   auto photons = std::make_shared<ManifoldPhotons>();
   ManifoldSampler seeds(scene, std::make_shared<ManifoldGuide>(scene));
   RayCounts rays;
-  for (uint64_t i = 0; i < ManifoldPhotons::most && rays.total() < most_photon_rays; ++i) {
+  for (uint64_t i = 0; i < ManifoldPhotons::most && rays.total() < most_rays; ++i) {
     Rng rng(1, Purpose::manifold, i);
     seeds.send_photon(rng, rays, *photons);
   }
@@ -174,15 +174,16 @@ std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene) {
   return photons;
 }
 
-std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules) {
+std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules,
+                                                     uint64_t most_rays) {
   constexpr uint64_t first_samples = 1024, samples = 8192;
   constexpr int most_searches = 256;  // what is found more rarely would take most of the time
   auto guide = std::make_shared<ManifoldGuide>(scene);
   if (!guide->useful()) return nullptr;
-  guide->follow(send_photons(scene));
+  guide->follow(send_photons(scene, most_rays / 2));
   const auto all = std::make_shared<ManifoldGuide>(*guide);
   all->set_most_searches(most_searches);
-  ManifoldLessons lessons(scene, rules, all);
+  ManifoldLessons lessons(scene, rules, all, most_rays);
   lessons.take(first_samples);
   if (lessons.rare() < least_rare / 2) return nullptr;
   lessons.take(samples);

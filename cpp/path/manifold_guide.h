@@ -70,11 +70,18 @@ class ManifoldGuide {
   std::optional<std::unordered_map<uint64_t, double>> ratios_;
 };
 
-/// Photons from the lights of the scene from which chains are searched.
-std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene);
+/// Rays by which a guide is learned: half a second or less. Rays are counted, not seconds, so that
+/// each run learns alike.
+inline constexpr uint64_t rays_of_lessons = 1 << 20;
+
+/// Photons from the lights of the scene from which chains are searched, by about this many rays.
+std::shared_ptr<const ManifoldPhotons> send_photons(const Scene& scene,
+                                                    uint64_t most_rays = rays_of_lessons / 2);
 
 /// The guide to the chains along which rare light comes, by what some samples of bidirectional path
-/// tracing have found; nullptr if there is little of it.
-std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules);
+/// tracing have found; nullptr if there is little of it. The samples take about `most_rays`, and
+/// photons half as many.
+std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules,
+                                                     uint64_t most_rays = rays_of_lessons);
 
 }  // namespace mlt

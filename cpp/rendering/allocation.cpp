@@ -133,7 +133,6 @@ std::vector<Forecast> forecasts(MetropolisAlgorithm& algorithm, const CoarseImag
   const auto add = [&](SampleTechniques kind) {
     const bool known = tours && kind == SampleTechniques::all;
     const AllocationSums sums = known ? of_starts : samples.draw(kind);
-    if (sums.count == 0) return;  // it was cancelled
     forecasts.emplace_back(kind, sums, coarse.b, algorithm.cost_of_mutation(sums.mean(sums.rays)));
     if (tours)
       forecasts.back().set_starts(starts, of_starts, algorithm.scene().camera().raster().pixels());

@@ -46,12 +46,12 @@ struct AllocationSums {
 class AllocationSamples {
  public:
   AllocationSamples(MetropolisAlgorithm& algorithm, const CoarseImage& coarse,
-                    const AllocationSettings& settings, const std::atomic<bool>& cancelled)
+                    const AllocationSettings& settings, const std::atomic<bool>& late)
       : algorithm_(algorithm),
         raster_(algorithm.scene().camera().raster()),
         coarse_(coarse),
         settings_(settings),
-        cancelled_(cancelled) {}
+        late_(late) {}
 
   /// Samples that may go to the image.
   AllocationSums draw(SampleTechniques techniques) {
@@ -83,7 +83,7 @@ class AllocationSamples {
     in_parts(settings_.threads, settings_.samples / 2,
              [&](uint64_t part, uint64_t i, uint64_t last) {
                const auto source = make_source();
-               for (; i < last && !cancelled_; ++i) {
+               for (; i < last && goes_on(sums[part].count, late_); ++i) {
                  PixelSampler first(stream, static_cast<uint32_t>(i)),
                      second(mix_bits(stream), static_cast<uint32_t>(i));
                  const Vec2 position = raster_.sample(first.next2());
@@ -129,7 +129,7 @@ class AllocationSamples {
   const Raster& raster_;
   const CoarseImage& coarse_;
   const AllocationSettings& settings_;
-  const std::atomic<bool>& cancelled_;
+  const std::atomic<bool>& late_;
 };
 
 }  // namespace mlt

@@ -1,18 +1,16 @@
 #include "rendering/coarse_image.h"
 
-#include "base/parallel.h"
-
 #include <vector>
 
 namespace mlt {
 
 CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster, uint64_t seed,
-                         uint64_t samples, int threads, const std::atomic<bool>& cancelled) {
+                         uint64_t samples, int threads, const std::atomic<bool>& late) {
   std::vector<CoarseImage> images(part_count, CoarseImage(raster));
   const uint64_t stream = mix_bits(seed ^ mix_bits(uint64_t(Purpose::map)));
   in_parts(threads, samples, [&](uint64_t part, uint64_t i, uint64_t last) {
     const auto source = algorithm.source();
-    for (; i < last && !cancelled; ++i) {
+    for (; i < last && goes_on(images[part].drawn, late); ++i) {
       PixelSampler sampler(stream, static_cast<uint32_t>(i));
       const Vec2 position = raster.sample(sampler.next2());
       for (const FoundLight& found : source->sample(position, sampler))

@@ -79,8 +79,8 @@ class MetropolisAlgorithm {
   }
   /// Name and path length of each row of the statistics.
   virtual std::vector<MutationStats> rows() const = 0;
-  /// Called once before the first sample.
-  virtual void learn() {}
+  /// Called once before the first sample; `seconds` are those of the pilot.
+  virtual void learn(double /*seconds*/) {}
   /// Called once before the first sample that is weighed. `share`: that of a pilot's usual work.
   virtual void look_around(double /*share*/, uint64_t /*seed*/, int /*threads*/,
                            const std::atomic<bool>& /*cancelled*/) {}

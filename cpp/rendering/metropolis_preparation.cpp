@@ -66,8 +66,8 @@ bool MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& l
   } else if (algorithm_->has_tours()) {
     start_tours();
   } else {
-    start_chains(threads, late);
-    return !late;
+    start_chains(threads, cancelled);  // as many as it can afford, even if the pilot was late
+    return !cancelled;
   }
   return true;
 }
@@ -75,10 +75,10 @@ bool MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& l
 /// The share of a pilot's samples that it can afford. Samples that search for light through glass
 /// may take a thousand times as many rays as others. Rays are counted, not seconds, so that equal
 /// seeds have equal pilots on any number of threads: one traces them in about preparation_seconds_,
-/// or in four seconds.
+/// or in two and a half seconds.
 double MetropolisRendering::affordable_share(const std::atomic<bool>& cancelled) {
   constexpr double per_second = 1 << 20, to_try = 1. / 32, usual = 50000;
-  const double rays = per_second * std::min(preparation_seconds_, 4.0),
+  const double rays = per_second * std::min(preparation_seconds_, 2.5),
                given = static_cast<double>(settings_.luminance_samples),
                samples = std::isinf(preparation_seconds_) ? usual : std::max(usual, given);
   const auto source = algorithm_->source();
@@ -99,7 +99,7 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
     algorithm_->set_techniques(techniques);
     return samples_alone(techniques);
   }
-  algorithm_->learn();
+  algorithm_->learn(preparation_seconds_);
   const double share = affordable_share_ = affordable_share(cancelled);
   algorithm_->look_around(share, seed_, threads, cancelled);
   const AllocationSettings settings{seed_, threads,

@@ -306,9 +306,13 @@ def test_time_ends_samples_whose_paths_do_not_end():
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_time_ends_chains_whose_paths_do_not_end(name):
-    """The time is too short for chains; the samples in their place have Russian roulette."""
-    assert mlt.start(white_room(), endless(name), time=0.3).result().stats["ended_by"] == "time"
+def test_time_ends_chains_whose_paths_do_not_end(name, tmp_path):
+    """It may be too short for chains; the samples in their place have Russian roulette."""
+    job = mlt.start(white_room(), endless(name), time=0.3)
+    assert job.result().stats["ended_by"] == "time"
+    job.checkpoint(tmp_path / "a.mlt")
+    resumed = mlt.resume(tmp_path / "a.mlt", scene=white_room(), time=0.6).result()
+    assert resumed.stats["ended_by"] == "time"
 
 
 def test_cancel_ends_renders_whose_paths_do_not_end(tmp_path):
@@ -428,5 +432,6 @@ def test_preparation_by_searches_through_glass_is_bounded():
         },
         size=(16, 16),
     )
-    stats = mlt.start(scene, "mlt", spp=0.1, threads=1).result().stats
-    assert stats["seconds"]["bootstrap"] < 8  # three on an idle processor
+    start = time.process_time()
+    mlt.start(scene, "mlt", spp=0.1, threads=1).result()
+    assert time.process_time() - start < 5  # two on an idle processor

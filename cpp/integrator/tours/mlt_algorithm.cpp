@@ -63,7 +63,9 @@ class MltAlgorithm : public MetropolisAlgorithm {
     weights_ = std::make_shared<MixtureWeights>(std::move(weights));
   }
 
-  void learn() override {
+  void learn(double seconds) override {
+    constexpr double least = 1 << 18, most = rays_of_lessons;
+    lesson_rays_ = static_cast<uint64_t>(std::clamp(most * seconds, least, most));
     find_manifolds();
     if (!guide_) return;
     const auto hasty = std::make_shared<ManifoldGuide>(*guide_);
@@ -135,6 +137,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
     ByteWriter bytes;
     bytes.write(target_.map() ? target_.map()->factors() : std::vector<double>());
     const CertainLight* certain = target_.certain_light();
+    bytes.write(lesson_rays_);
     bytes.write(walks_);
     bytes.write(certain ? certain->cells() : std::vector<uint8_t>());
     bytes.write<uint64_t>(weights_->rows().size());
@@ -142,16 +145,17 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return bytes.take();
   }
   void load(const std::string& saved) override {
-    find_manifolds();
     ByteReader bytes(saved);
     std::vector<double> factors;
     bytes.read(factors);
+    bytes.read(lesson_rays_);
+    find_manifolds();
     bytes.read(walks_);
     std::vector<uint8_t> cells;
     bytes.read(cells);
     const Raster& raster = scene().camera().raster();
     if (!cells.empty()) target_.leave_to_samples({raster, walks_, std::move(cells)});
-    if (settings_.two_stage) {
+    if (!factors.empty()) {
       TargetMap map = blank_image(raster);
       map.set_factors(std::move(factors));
       target_.set_map(std::move(map));
@@ -167,9 +171,9 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
  private:
-  /// Learns which chains are searched for: the same for each render of the scene.
+  /// Learns which chains are searched for: alike for each render of the scene with as many rays.
   void find_manifolds() {
-    if (settings_.manifolds) guide_ = learn_manifolds(scene(), target_.rules());
+    if (settings_.manifolds) guide_ = learn_manifolds(scene(), target_.rules(), lesson_rays_);
     target_.set_manifolds(guide_);
   }
   /// The mutation as it is, or once for each step size that adaptation chooses from.
@@ -209,6 +213,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
   MltSettings settings_;
   PathTarget target_;
+  uint64_t lesson_rays_ = rays_of_lessons;
   uint64_t walks_ = 0;  ///< Camera walks that have looked for CertainLight.
   std::shared_ptr<const ManifoldGuide> guide_;
   Mutations mutations_;

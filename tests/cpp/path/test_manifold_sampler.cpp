@@ -69,7 +69,8 @@ TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
   const BidirectionalSettings settings = with_manifolds();
   const ManifoldSampler manifolds(*scene_, settings.manifolds);
   BidirectionalSampler with(*scene_, settings), without(*scene_, plain);
-  // chains that photons miss are found rarely, and then count much
+  // Chains that photons miss are found rarely, and then count much. After 3,000,000 samples of
+  // smooth_glass the means are 0.0152 +- 0.0009 by chains and 0.01554 by the others.
   const int samples = GetParam() == std::tuple("smooth_glass", true) ? 300000 : 20000;
   constexpr double most =
       20;  // of the light of a sample, alike for both: damped, as a function of x
@@ -182,6 +183,12 @@ TEST(ManifoldPhotons, AreTheSameEachTime) {
   const auto a = send_photons(*scene), b = send_photons(*scene);
   EXPECT_GT(a->size(), 1000);
   EXPECT_EQ(a->size(), b->size());
+}
+
+TEST(ManifoldPhotons, AreFewIfTheirRaysAre) {
+  const auto few = send_photons(*make_scene("caustic").scene, 1 << 10);
+  EXPECT_GT(few->size(), 10);
+  EXPECT_LT(few->size(), 1 << 10);
 }
 
 TEST(ManifoldSampler, IsNotUsedWhereNothingIsSpecular) {

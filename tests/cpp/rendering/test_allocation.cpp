@@ -116,12 +116,24 @@ TEST(Allocation, DoesNotDependOnLampsThatAreSeen) {
   EXPECT_EQ(share({0.01, 100, 1e4}), share({0.01, 100}));
 }
 
+/// All parts of a pilot draw something, so that it need not be thrown away.
+TEST(Allocation, IsFoundByFewSamplesIfItIsLate) {
+  KnownAlgorithm algorithm(make_scene("cornell").scene, {0.1, 10});
+  const std::atomic<bool> late{true};
+  const CoarseImage coarse =
+      coarse_image(algorithm, algorithm.scene().camera().raster(), 1, 20000, 1, late);
+  EXPECT_EQ(coarse.drawn, 128);
+  const Allocation found = allocate(algorithm, coarse, {1, 1, 20000, {}, {}}, late);
+  EXPECT_GT(found.share, 0.05);
+  EXPECT_LT(found.share, 0.95);
+}
+
 Allocation allocation_of(const std::string& scene, uint64_t seed) {
   MltSettings settings;
   settings.rules.max_depth = 8;
   settings.mixture = {{"lens", 1}};
   const auto algorithm = mlt_algorithm(make_scene(scene).scene, settings);
-  algorithm->learn();
+  algorithm->learn(std::numeric_limits<double>::infinity());
   const CoarseImage coarse = coarse_image(*algorithm, algorithm->scene().camera().raster(), seed,
                                           16000, 1, never_cancelled);
   algorithm->prepare(coarse, seed, 1, never_cancelled);
