@@ -59,7 +59,7 @@ TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
     ++compared[i];
   };
   for_each_proposal(target, all, 2, 2000, compare);
-  std::set<std::string> of_few_paths = {"multi_chain", "multiplexed", "manifold"};
+  std::set<std::string> of_few_paths = {"multi_chain", "multiplexed", "manifold", "translucent"};
   for (const MutationPlugin& plugin : mutation_plugins())
     if (plugin.supports && !plugin.supports(target.scene())) of_few_paths.insert(plugin.name());
   for (size_t i = 0; i < all.size(); ++i)
