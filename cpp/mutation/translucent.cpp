@@ -92,7 +92,7 @@ bool is_translucent(const Scene& scene) {
 MutationPlugin mutation_translucent() {
   return {{"mutation", "translucent",
            "perturbation of the image position that keeps directions and distances in media and "
-           "behind rough glass.",
+           "behind rough glass (after Gruson et al. 2018).",
            step_size_parameters()},
           "translucent_perturbation",
           0.2,

@@ -26,6 +26,7 @@ def test_there_is_a_class_for_each_mutation():
         "Multiplexed": "Otsu et al. 2017",
         "Manifold": "Jakob & Marschner 2012, sec. 5",
         "Propagation": "Pauly et al. 2000, sec. 4.2",
+        "Translucent": "Gruson et al. 2018",
         "Wavelength": "dispersive chains",
     }
     assert names == veach | others.keys()

@@ -220,7 +220,7 @@ class ERPT(Integrator):
         Largest move on the image, as a share of its diagonal.
     translucent_perturbation : boolean, default True
         Use the perturbation of the image position that keeps directions and distances in media
-        and behind rough glass.
+        and behind rough glass (after Gruson et al. 2018).
     translucent_weight : float, default 0.2
         Weight of the translucent mutation among those that suit a path.
     translucent_smallest_pixels : float, default 0.1
@@ -407,7 +407,7 @@ class MLT(Integrator):
         Largest change of the logarithm of the distance.
     translucent_perturbation : boolean, default True
         Use the perturbation of the image position that keeps directions and distances in media
-        and behind rough glass.
+        and behind rough glass (after Gruson et al. 2018).
     translucent_weight : float, default 0.2
         Weight of the translucent mutation among those that suit a path.
     translucent_smallest_pixels : float, default 0.1

@@ -150,7 +150,7 @@ class Propagation(BuiltIn):
 
 class Translucent(BuiltIn):
     """The perturbation of the image position that keeps directions and distances in media and
-    behind rough glass.
+    behind rough glass (after Gruson et al. 2018).
 
     Parameters
     ----------
