@@ -1,11 +1,19 @@
 // The first step of a perturbation that starts at the lens: the image position moves by a small
-// distance and, with a lens of finite aperture, half of the time the point on the lens too.
+// distance and, with a lens of finite aperture, half of the time the point on the lens too. The
+// path follows.
 #pragma once
 
 #include "mutation/chain_perturbation.h"
+#include "mutation/edge_visibility.h"
 #include "path/walk.h"
 
 namespace mlt {
+
+/// A perturbation does not go from one light at infinity to another, nor to or from a surface.
+inline bool same_light_at_infinity(const PathState& x, const PathState& y) {
+  return x[0].at.infinite() == y[0].at.infinite() &&
+         (!x[0].at.infinite() || x[0].emitter == y[0].emitter);
+}
 
 class ImageMove {
  public:
@@ -24,6 +32,20 @@ class ImageMove {
     const Vec2 raster = x.raster + offset(chain_.image_radius(), rng);
     if (!camera_->raster().contains(raster)) return std::nullopt;
     return camera_ray(*camera_, y[k].at, raster);
+  }
+
+  /// Makes y from x by such a move, which is carried along `span`: Mutation::propose().
+  std::optional<Edit> propose(const PathTarget& target, const PathState& x,
+                              const ChainPerturbation::Span& span, PathState& y,
+                              MutationContext& context) const {
+    const int k = span.start, stop = span.stop;
+    const Edit edit{stop, k, k - stop + 1};
+    splice(x, edit, y);
+    const auto ray = move(x, y, context.rng);
+    if (!ray || !chain_.carry(x, span, *ray, y, context)) return std::nullopt;
+    target.evaluate(stop, k, y);
+    if (stop > 0) test_visibility(target.scene(), stop, y, context.rays);
+    return edit;
   }
 
   /// Density of the point on the lens of y, times that of the direction in projected solid angle.

@@ -16,19 +16,12 @@
 // hit a light again. So they explore a lamp in a mirror, and surfaces lit through glass that are
 // seen through glass.
 #include "mutation/chain_perturbation.h"
-#include "mutation/edge_visibility.h"
 #include "mutation/image_move.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
 namespace {
-
-/// A perturbation does not go from one light at infinity to another, nor to or from a surface.
-bool same_light_at_infinity(const PathState& x, const PathState& y) {
-  return x[0].at.infinite() == y[0].at.infinite() &&
-         (!x[0].at.infinite() || x[0].emitter == y[0].emitter);
-}
 
 CameraChains camera_chains(const PathState& x) {
   CameraChains chains;
@@ -55,14 +48,7 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
 
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
-    const int k = x.edges(), stop = chains(x).stop;
-    const Edit edit{stop, k, k - stop + 1};
-    splice(x, edit, y);
-    const auto ray = image_.move(x, y, context.rng);
-    if (!ray || !chain_.carry(x, {k, stop, -1}, *ray, y, context)) return std::nullopt;
-    target().evaluate(stop, k, y);
-    if (stop > 0) test_visibility(scene(), stop, y, context.rays);
-    return edit;
+    return image_.propose(target(), x, {x.edges(), chains(x).stop, -1}, y, context);
   }
 
   template <class Measure>

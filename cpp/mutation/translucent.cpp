@@ -9,7 +9,6 @@
 // Between parallel surfaces all vertices are shifted by one vector; the density of keeping a
 // direction is 1 by solid angle in any case. (Shifts of paths in media: Gruson, Hua, Vibert,
 // Nowrouzezahrai & Hachisuka 2018, "Gradient-domain volumetric photon density estimation".)
-#include "mutation/edge_visibility.h"
 #include "mutation/image_move.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
@@ -48,14 +47,7 @@ class TranslucentPerturbation final : public MeasuredMutation<TranslucentPerturb
 
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
-    const int k = x.edges(), stop = this->stop(x);
-    const Edit edit{stop, k, k - stop + 1};
-    splice(x, edit, y);
-    const auto ray = image_.move(x, y, context.rng);
-    if (!ray || !chain_.carry(x, span(k, stop), *ray, y, context)) return std::nullopt;
-    target().evaluate(stop, k, y);
-    if (stop > 0) test_visibility(scene(), stop, y, context.rays);
-    return edit;
+    return image_.propose(target(), x, span(x.edges(), stop(x)), y, context);
   }
 
   template <class Measure>
@@ -65,7 +57,7 @@ class TranslucentPerturbation final : public MeasuredMutation<TranslucentPerturb
     if (this->stop(x) != stop || this->stop(y) != stop || !same_form(x, y, stop, k)) return 0;
     for (int i = stop; i < k; ++i)
       if (x[i].at.kind != y[i].at.kind) return 0;
-    if (stop == 0 && x[0].at.infinite() && x[0].emitter != y[0].emitter) return 0;
+    if (stop == 0 && !same_light_at_infinity(x, y)) return 0;
     return chain_.density(in, x, y, span(k, stop), image_.density(x, y));
   }
 
