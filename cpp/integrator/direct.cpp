@@ -46,8 +46,7 @@ class DirectEstimator : public Estimator, public LayeredDefaults {
   template <class Sampler, class Found>
   void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
     const CameraRay start = camera_ray(scene_->camera(), raster, sampler);
-    watch(*scene_, raster, start, found,
-          [&](auto&& watcher) { trace(start.ray, sampler, rays, watcher); });
+    watch(raster, start, found, [&](auto&& watcher) { trace(start.ray, sampler, rays, watcher); });
   }
 
  private:
@@ -88,11 +87,12 @@ class DirectEstimator : public Estimator, public LayeredDefaults {
     const auto weight = [&](double light, double bsdf) {
       return MisExponent(Heuristic::power).weight(n * light, m * bsdf);
     };
-    const DirectLight light = direct_light(walker, at, -seen.ray.d, u,
+    const LightSample chosen = sample_direct_position(*scene_, at, u);
+    const DirectLight light = direct_light(walker, at, -seen.ray.d, chosen,
                                            settings_.rules.strict_normals, weight, seen.likelihood);
     const Color found = seen.seen(seen.throughput * light.radiance, light.disperses) / n;
     watcher.find(seen, found, 0);
-    watcher.connect(u, found);
+    watcher.connect(chosen, found);
   }
 
   template <class Sampler, class Watcher>

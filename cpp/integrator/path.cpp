@@ -9,7 +9,11 @@ namespace mlt {
 namespace {
 
 struct PathIntegrator : LayeredDefaults {
-  static PathRules settings(Params& params) { return path_rules(params); }
+  static PathRules settings(Params& params) {
+    PathRules rules = path_rules(params);
+    rules.equiangular = params.boolean("equiangular");
+    return rules;
+  }
   static SampledSettings film(const PathRules&) { return camera_walks(); }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
     return take_alone(PathEstimator(scene, rules),
@@ -24,7 +28,11 @@ Plugin integrator_path() {
       "path",
       "Path tracing from the camera with next-event estimation and multiple importance sampling "
       "(Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.",
-      {path_parameters(), light_parameters()});
+      {path_parameters(),
+       {{"equiangular", ParamType::boolean, false,
+         "In media, light is also gathered where a ray passes near a lamp (Kulla & Fajardo 2012). "
+         "That pays where lamps stand in thin fog. Samples are then taken one by one."}},
+       light_parameters()});
   schema.ignored = {"samples_per_pass", "block_size"};
   return make_plugin<SampledIntegrator<PathIntegrator>>(schema);
 }

@@ -12,11 +12,16 @@ inline double per_solid_angle(const Vec3& from, const SurfacePoint& x0, const Ve
   return length_squared(x0.p - from) / abs_cos(x0, w);
 }
 
-/// Density in solid angle with which next-event estimation at `from` samples x0, in direction w.
+/// Density in solid angle with which next-event estimation at `from` samples x0, in direction w, if
+/// it chooses this light with this probability.
+inline double direct_pdf(double choice, const Emitter& emitter, const Vec3& from,
+                         const SurfacePoint& x0, const Vec3& w) {
+  return choice * emitter.pdf_direct(from, x0) * per_solid_angle(from, x0, w);
+}
 inline double direct_pdf(const Scene& scene, const Emitter& emitter, const Vec3& from,
                          const SurfacePoint& x0, const Vec3& w) {
-  return scene.emitter_probability_for(emitter.index(), from) * emitter.pdf_direct(from, x0) *
-         per_solid_angle(from, x0, w);
+  const double choice = scene.emitter_probability_for(emitter.index(), from);
+  return direct_pdf(choice, emitter, from, x0, w);
 }
 
 /// The light from a position sampled by next-event estimation that is scattered at a point, if it
@@ -40,18 +45,17 @@ DirectLight unshadowed_light(const LightSample& light, const SurfacePoint& at, b
   const WorldScattering s = scattering(wl);
   if (is_black(s.f)) return {};
   const double pdf = light.x0.pdf * per_solid_angle(at.p, light.x0.at, wl);
-  const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
+  const double mis = weight(pdf, light.emitter->delta() ? 0 : s.pdf_from_camera);
   return {radiance * s.f * (std::abs(s.cos_l) * mis / pdf), s.disperses};
 }
 
-/// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A
-/// walk would go on from `at` with this likelihood.
+/// The light that is scattered at `at` towards wc from this position, with visibility. A walk would
+/// go on from `at` with this likelihood.
 template <class Weight>
 DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
-                         const Vec3& u, bool strict, Weight&& weight,
+                         const LightSample& chosen, bool strict, Weight&& weight,
                          const Spectrum& likelihood = Spectrum(1)) {
   const Scene& scene = walker.scene;
-  const LightSample chosen = sample_direct_position(scene, at, u);
   const auto scattering = [&](const Vec3& wl) {
     return BsdfAt(scene, at).scattering(wl, wc, Lobe::smooth);
   };

@@ -39,11 +39,10 @@ struct Estimator {
   /// Calls trace(watcher) for a sample that begins at this ray; the watcher tells what is found,
   /// and records it.
   template <class Found, class Trace>
-  void watch(const Scene& scene, const Vec2& raster, const CameraRay& start, Found& found,
-             Trace&& trace) const {
+  void watch(const Vec2& raster, const CameraRay& start, Found& found, Trace&& trace) const {
     if (paths)
       trace(LightFinder<PathRecorder, Found>{
-          {scene, raster, start.lens.at, start.ray.time, *paths}, found, raster});
+          {raster, start.lens.at, start.ray.time, *paths}, found, raster});
     else
       trace(LightFinder<IgnorePaths, Found>{{}, found, raster});
   }
@@ -61,7 +60,7 @@ class PathEstimator : public Estimator {
     CameraWalk walk(start.ray);
     walk.mis = MisExponent(heuristic_);
     walk.certainty = heuristic_ == Heuristic::balance;
-    watch(*scene_, raster, start, found,
+    watch(raster, start, found,
           [&](auto&& watcher) { trace_path(*scene_, rules_, walk, sampler, rays, watcher); });
   }
 

@@ -21,7 +21,7 @@ std::vector<FoundPath> traced(const Scene& scene, const PathRules& rules, const 
   std::vector<FoundPath> found;
   RayCounts rays;
   const auto [lens, ray] = camera_ray(scene.camera(), raster, sampler);
-  PathRecorder recorder(scene, raster, lens.at, ray.time, found);
+  PathRecorder recorder(raster, lens.at, ray.time, found);
   trace_path(scene, without_roulette(rules), ray, sampler, rays, recorder);
   return found;
 }
@@ -81,14 +81,9 @@ FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
   return found;
 }
 
-PathRecorder::PathRecorder(const Scene& scene, const Vec2& raster, const SurfacePoint& lens,
-                           double time, std::vector<FoundPath>& found)
-    : scene_(&scene), raster_(raster), time_(time), walk_{camera_vertex(lens)}, found_(&found) {}
-
-void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
-  const LightSample light = sample_direct_position(*scene_, walk_.back().at, u_light);
-  if (light.x0.pdf > 0) keep(light_vertex(*light.emitter, light.x0.at), true, estimate);
-}
+PathRecorder::PathRecorder(const Vec2& raster, const SurfacePoint& lens, double time,
+                           std::vector<FoundPath>& found)
+    : raster_(raster), time_(time), walk_{camera_vertex(lens)}, found_(&found) {}
 
 void PathRecorder::keep(const Vertex& x0, bool connected, const Color& estimate) {
   if (is_black(estimate)) return;

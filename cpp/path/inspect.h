@@ -44,7 +44,7 @@ FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
 /// Watches trace_path (see IgnorePaths) and records the paths that it finds.
 class PathRecorder : public IgnorePaths {
  public:
-  PathRecorder(const Scene& scene, const Vec2& raster, const SurfacePoint& lens, double time,
+  PathRecorder(const Vec2& raster, const SurfacePoint& lens, double time,
                std::vector<FoundPath>& found);
 
   void arrive(const SurfacePoint& at) { walk_.push_back(inner_vertex(at)); }
@@ -52,12 +52,18 @@ class PathRecorder : public IgnorePaths {
   void hit(const Emitter& emitter, const SurfacePoint& x0, const Color& estimate) {
     keep(light_vertex(emitter, x0), false, estimate);
   }
-  void connect(const Vec3& u_light, const Color& estimate);
+  void connect(const LightSample& light, const Color& estimate) {
+    if (light.x0.pdf > 0) keep(light_vertex(*light.emitter, light.x0.at), true, estimate);
+  }
+  void connect_between(const SurfacePoint& at, const LightSample& light, const Color& estimate) {
+    arrive(at);
+    connect(light, estimate);
+    walk_.pop_back();
+  }
 
  private:
   void keep(const Vertex& x0, bool connected, const Color& estimate);
 
-  const Scene* scene_;
   Vec2 raster_;
   double time_;
   std::vector<Vertex> walk_;  ///< Vertices of the walk, from the lens on.

@@ -36,6 +36,10 @@ class MisExponent {
   }
   /// The weight of one of two techniques by their densities.
   double weight(double own, double other) const { return mis_weight(1, raise(other / own)); }
+  /// The weight of one of three.
+  double weight(double own, double second, double third) const {
+    return mis_weight(1, raise(second / own), raise(third / own));
+  }
 
  private:
   double least_ = 0, most_ = infinity;

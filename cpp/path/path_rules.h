@@ -13,6 +13,7 @@ struct PathRules {
   static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< As rr_depth: never.
   bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;  ///< See `consistent_sides`.
+  bool equiangular = false;     ///< Path tracing in media has the technique of approach.h, too.
   /// Whether waves (cpp/wave) make the paths where they can; else cpp/path, one by one.
   bool waves = true;
 

@@ -3,7 +3,7 @@
 // to change first; `path` renders by wave/path_wave.h, which is tested against it (docs/waves.md).
 #pragma once
 
-#include "path/direct_light.h"
+#include "path/camera_walk.h"
 #include "path/mis.h"
 #include "path/path_rules.h"
 
@@ -69,68 +69,16 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
       w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2, s.disperses};
 }
 
-struct CameraWalk;
-
-/// A watcher of trace_path: its functions are called at each step, in this order. This one ignores
-/// them.
-struct IgnorePaths {
-  /// Called before hit() or connect(): a path with this radiance was found. Returns the weight with
-  /// which it counts in the radiance of the walk.
-  double find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) const {
-    return 1;
-  }
-  /// A light was hit at x0; `radiance` is the result.
-  void hit(const Emitter&, const SurfacePoint& /*x0*/, const Color& /*radiance*/) {}
-  void arrive(const SurfacePoint&) {}
-  /// The last vertex was connected to a position on a light, sampled by sample_direct_position with
-  /// `u`; `radiance` is the result.
-  void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
-  void scatter(Lobe) {}
-};
-
-/// A walk from the camera, and the radiance that it has found.
-struct CameraWalk {
-  /// A ray of no length finds nothing: it is outside the field of view.
-  CameraWalk(const Ray& first)
-      : ray(first), throughput(first.t_max > 0 ? 1.0 : 0.0), previous(first.o) {}
-
-  Ray ray;            ///< The next ray.
-  Color radiance{0};  ///< As a film records it.
-  Spectrum throughput;
-  Vec3 previous;           ///< Its last vertex.
-  double scatter_pdf = 0;  ///< Density of the ray in solid angle.
-  bool dispersed = false;  ///< See Scattering.
-  bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
-  double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
-  double certainty = 0;    ///< See certainty() of path_terms.h; up to here, if it began with 1.
-  double survival = 1;     ///< Probability of having survived Russian roulette.
-  Spectrum likelihood{1};  ///< See Passage.
-
-  MisExponent mis{Heuristic::power};  ///< For the two techniques.
-
-  /// The light of a path as a film records it; its last vertex may disperse, too.
-  Color seen(const Spectrum& light, bool disperses = false) const {
-    return recorded(light, ray.wavelength, dispersed || disperses);
-  }
-
-  /// Goes along the ray up to where it stops.
-  void pass(const Passage& leg, const Arrival& arrival) {
-    const double p = arrival.probability();
-    throughput = leg.is_blocked() ? Spectrum(0) : throughput * (leg.transmittance / p);
-    scatter_pdf *= p;
-    certainty *= p;
-    likelihood = arrival.next_likelihood();
-  }
-};
-
 /// Follows the ray of a walk to where it stops, knowing whether it has hit a surface, and the first
 /// that it has; false if it leaves the scene.
 inline bool go_through(const Walker& walker, double u_leg, bool hit, CameraWalk& walk,
                        SurfacePoint& at) {
   Passage leg;
   leg.likelihood = walk.likelihood;
+  Stretch first;
   const Vec3& w = walk.ray.d;
-  hit = walker.go_on(walk.ray, u_leg, hit, at, leg);
+  hit = walker.go_on(walk.ray, u_leg, hit, at, leg, first);
+  walk.begin_leg(first);
   walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
   if (hit && at.in_medium()) walk.certainty = 0;
   return hit;
@@ -144,17 +92,23 @@ bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoi
   return walker.scene.has_passages() ? go_through(walker, u_leg, hit, walk, at) : hit;
 }
 
+/// The weight of having hit x0 on a light from the last vertex.
+inline double hit_weight(const Scene& scene, const CameraWalk& walk, const Emitter& emitter,
+                         const SurfacePoint& x0) {
+  if (walk.delta) return 1;
+  const Vec3& w = walk.ray.d;
+  const double direct = direct_pdf(scene, emitter, walk.previous, x0, w);
+  if (!walk.approaches) return walk.mis.weight(walk.scatter_pdf, direct);
+  return walk.mis.weight(walk.scatter_pdf, direct,
+                         walk.approaches->previous.direct_pdf(scene, emitter, x0, w));
+}
+
 /// Adds the emission where the ray ends: at the surface `at`, or (nullptr) outside the scene.
 template <class Watcher = IgnorePaths>
 void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
                 Watcher&& watcher = Watcher()) {
-  const Vec3& w = walk.ray.d;
   const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& emitted) {
-    const double weight =
-        walk.delta
-            ? 1.0
-            : walk.mis.weight(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
-    const Spectrum weighted = walk.throughput * weight;
+    const Spectrum weighted = walk.throughput * hit_weight(scene, walk, emitter, x0);
     const Color found = walk.seen(weighted * emitted);
     walk.radiance += found * watcher.find(walk, found, walk.certainty);
     watcher.hit(emitter, x0, found);
@@ -209,12 +163,48 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
 template <class Watcher = IgnorePaths>
 void add_direct_light(const Walker& walker, const PathRules& rules, const SurfacePoint& at,
                       const Vec3& u, CameraWalk& walk, Watcher&& watcher = Watcher()) {
-  const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
+  const LightSample chosen = sample_direct_position(walker.scene, at, u);
+  const SurfacePoint& x0 = chosen.x0.at;
+  const double approached =
+      walk.approaches && chosen.x0.pdf > 0
+          ? walk.approaches->now.direct_pdf(walker.scene, *chosen.emitter, x0, direction(at, x0))
+          : 0;
+  const auto mis = [&](double light, double bsdf) {
+    return walk.mis.weight(light, bsdf, approached);
+  };
   const DirectLight light =
-      direct_light(walker, at, -walk.ray.d, u, rules.strict_normals, mis, walk.likelihood);
+      direct_light(walker, at, -walk.ray.d, chosen, rules.strict_normals, mis, walk.likelihood);
   const Color direct = walk.seen(walk.throughput * light.radiance, light.disperses);
   walk.radiance += direct * watcher.find(walk, direct, 0);
-  watcher.connect(u, direct);
+  watcher.connect(chosen, direct);
+}
+
+/// Adds light that is scattered on the leg where it is near to a light (approach.h).
+template <class Watcher = IgnorePaths>
+void add_approach(const Walker& walker, const PathRules& rules, const ApproachNumbers& u,
+                  CameraWalk& walk, Watcher&& watcher = Watcher()) {
+  const Scene& scene = walker.scene;
+  const Approach& approach = walk.approaches->now;
+  if (!approach.exists()) return;
+  const EmitterChoice choice = approach.choose(scene, u.light.choice);
+  const Equiangular distances = approach.distances(*choice.emitter);
+  const double t = distances.sample(u.distance), pdf = distances.pdf(t);
+  if (!(pdf > 0)) return;
+
+  const SurfacePoint at = approach.point(t);
+  const LightSample chosen = sample_direct_position(scene, at, choice, u.light.position);
+  const Passage flight = approach.flight(scene, t);
+  const Arrival arrival = scene.arrival(flight, at, approach.direction());
+  const double at_vertex = scene.emitter_probability_for(choice.index, at.p) / choice.probability;
+  const auto mis = [&](double light, double phase) {
+    return walk.mis.weight(light * (pdf / arrival.flown()), light * at_vertex, phase);
+  };
+  const DirectLight light = direct_light(walker, at, -approach.direction(), chosen,
+                                         rules.strict_normals, mis, arrival.next_likelihood());
+  const Spectrum throughput = approach.throughput() * flight.transmittance / pdf;
+  const Color found = walk.seen(throughput * light.radiance, light.disperses);
+  walk.radiance += found * watcher.find(walk, found, 0);
+  watcher.connect_between(at, chosen, found);
 }
 
 /// Whether lights are sampled for the depth-th vertex after the lens.
@@ -230,15 +220,23 @@ template <class Sampler, class Watcher = IgnorePaths>
 Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
                  RayCounts& rays, Watcher&& watcher = Watcher()) {
   const Walker walker{scene, walk.ray.time, rays};
+  std::optional<Approaches> approaches;
+  if (rules.equiangular && scene.has_media()) walk.approaches = &approaches.emplace();
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
     const bool hit = arrive(walker, sampler, walk, at);
     if (rules.wants(depth)) find_light(scene, walk, hit ? &at : nullptr, watcher);
-    if (!hit || depth == rules.most_edges()) break;
-    watcher.arrive(at);
-
-    if (!consistent_sides(at, -walk.ray.d, rules.strict_normals)) break;
+    if (depth == rules.most_edges()) break;
+    const bool goes_on = hit && consistent_sides(at, -walk.ray.d, rules.strict_normals);
+    if (!goes_on && !walk.approaches) break;
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
+    if (walk.approaches) {
+      const ApproachNumbers u = ApproachNumbers::draw(sampler);
+      if (rules.wants(depth + 1)) add_approach(walker, rules, u, walk, watcher);
+    }
+    if (!goes_on) break;
+
+    watcher.arrive(at);
     if (wants_direct_light(scene, rules, depth, at))
       add_direct_light(walker, rules, at, numbers.for_light(), walk, watcher);
     if (!scatter(walker, rules, depth, at, numbers, walk, watcher)) break;

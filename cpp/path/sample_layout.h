@@ -46,6 +46,18 @@ struct DirectNumbersOf {
   Vec3 for_light() const { return {choice, position}; }
 };
 
+/// Light along a leg (approach.h).
+template <class Pair, class Single = Pair>
+struct ApproachNumbersOf {
+  DirectNumbersOf<Pair, Single> light;
+  Single distance;
+
+  template <class Sampler>
+  static ApproachNumbersOf draw(Sampler& sampler) {
+    return {DirectNumbersOf<Pair, Single>::draw(sampler), sampler.next()};
+  }
+};
+
 /// A vertex of a subpath, where the walk goes on.
 template <class Pair, class Single = Pair>
 struct StepNumbersOf {
@@ -76,6 +88,7 @@ struct VertexNumbersOf {
 using LensNumbers = LensNumbersOf<Vec2, double>;
 using LightNumbers = LightNumbersOf<Vec2, double>;
 using DirectNumbers = DirectNumbersOf<Vec2, double>;
+using ApproachNumbers = ApproachNumbersOf<Vec2, double>;
 using StepNumbers = StepNumbersOf<Vec2, double>;
 using VertexNumbers = VertexNumbersOf<Vec2, double>;
 

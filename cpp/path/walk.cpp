@@ -32,11 +32,12 @@ bool Walker::arrive(const Ray& ray, double u_leg, SurfacePoint& at, Spectrum& li
   return hit;
 }
 
-bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const {
+bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg,
+                   Stretch& first) const {
   for (;;) {
     if (ray.medium != no_medium) {
       const double distance = hit ? distance_to(at.p, ray) : ray.t_max;
-      if (const auto stop = fly(scene.media()[ray.medium], ray, distance, u_leg, leg)) {
+      if (const auto stop = fly(scene.media()[ray.medium], ray, distance, u_leg, leg, first)) {
         at = Scene::medium_point(ray, *stop);
         return true;
       }

@@ -5,6 +5,7 @@
 
 #include "path/ray_counts.h"
 #include "path/sample_layout.h"
+#include "path/stretch.h"
 #include "path/vertex.h"
 
 #include <optional>
@@ -146,7 +147,12 @@ struct Walker {
   bool arrive_at(double distance, const Ray& ray, double u_leg, SurfacePoint& at) const;
 
   /// Follows a leg on, knowing whether it has hit a surface, and the first that it has.
-  bool go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const;
+  bool go_on(const Ray& ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const {
+    Stretch first;
+    return go_on(ray, u_leg, hit, at, leg, first);
+  }
+  /// As above; finds the first stretch in a medium, too.
+  bool go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg, Stretch& first) const;
 
   /// Follows a leg to a light: one on the surface where it stops, or background() if there is none.
   template <class Background>

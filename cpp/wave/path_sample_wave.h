@@ -20,6 +20,7 @@ class PathSampleWave {
                                                       Heuristic heuristic,
                                                       WeightsAt weights = nullptr) {
     if (!rules.waves || scene.camera().clips_far()) return nullptr;
+    if (rules.equiangular && scene.has_media()) return nullptr;
     return std::make_unique<PathSampleWave>(scene, rules, heuristic, std::move(weights));
   }
   PathSampleWave(const Scene& scene, const PathRules& rules, Heuristic heuristic,

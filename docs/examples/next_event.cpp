@@ -26,8 +26,8 @@ class NextEventEstimator : public Estimator, public SampledDefaults {
     Color radiance =
         walk.seen(walk.throughput * emission(*scene_, hit ? &at : nullptr, walk.ray, alone));
     for (int i = 0; hit && i < n_; ++i) {
-      const Vec2 u = sampler.next2();
-      const auto light = direct_light(walker, at, -w, {sampler.next(), u}, false, alone);
+      const auto chosen = sample_direct_position(*scene_, at, {sampler.next(), sampler.next2()});
+      const DirectLight light = direct_light(walker, at, -w, chosen, false, alone);
       radiance += walk.seen(walk.throughput * light.radiance, light.disperses) / double(n_);
     }
     found(FoundLight{{raster, radiance}});

@@ -42,6 +42,7 @@ struct Variant {
   Assignments assignments;
 };
 inline Variant variant(const std::string& name) {
+  if (name == "path_equiangular") return {"path", {{"equiangular", "true"}}};
   if (name == "pssmlt_bdpt") return {"pssmlt", {{"estimator", "bdpt"}}};
   if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
   if (name == "mmlt_chains") return {"mmlt", {{"independent_share", "0"}}};

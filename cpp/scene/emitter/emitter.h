@@ -97,6 +97,8 @@ class Emitter : public Object {
   virtual double invert_third(const SurfacePoint& /*x0*/) const { return 0.5; }
   /// The box of a volume.
   virtual void find_box(Vec3& /*low*/, Vec3& /*high*/) const {}
+  /// A point amid the light, which is not at infinity.
+  Vec3 middle(double time) const;
 
   /// The radiance of a mesh that emits the same everywhere on its front side; nullptr for any other
   /// light.

@@ -680,6 +680,9 @@ class Path(Integrator):
     waves : boolean, default True
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
+    equiangular : boolean, default False
+        In media, light is also gathered where a ray passes near a lamp (Kulla & Fajardo 2012).
+        That pays where lamps stand in thin fog. Samples are then taken one by one.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
@@ -695,6 +698,7 @@ class Path(Integrator):
     hide_emitters: bool
     strict_normals: bool
     waves: bool
+    equiangular: bool
     light_groups: bool
     light_layers: str
     def __init__(
@@ -705,6 +709,7 @@ class Path(Integrator):
         hide_emitters: bool = False,
         strict_normals: bool = False,
         waves: bool = True,
+        equiangular: bool = False,
         light_groups: bool = False,
         light_layers: str = "",
     ) -> None: ...

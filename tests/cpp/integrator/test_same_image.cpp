@@ -68,6 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"spherical", "mmlt"}, Pair{"fisheye", "path"}, Pair{"fisheye", "pssmlt"},
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
         Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"fog", "path"},
+        Pair{"fog", "path_equiangular"}, Pair{"fire", "path_equiangular"},
         Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"fire", "path"},
         Pair{"fire", "ptracer"}, Pair{"fire", "pssmlt"}, Pair{"fire", "mmlt"},
         Pair{"beam", "ptracer"}, Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"},

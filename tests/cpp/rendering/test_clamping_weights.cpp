@@ -118,7 +118,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
     CameraWalk walk(ray);
     walk.certainty = 1;
     trace_path(scene, target.rules(), walk, same, rays,
-               CertaintyRecorder({scene, raster, lens.at, ray.time, paths}, certainties));
+               CertaintyRecorder({raster, lens.at, ray.time, paths}, certainties));
     ASSERT_EQ(found.size(), paths.size());
     ASSERT_EQ(found.size(), certainties.size());
     for (size_t k = 0; k < found.size(); ++k) {
