@@ -45,6 +45,10 @@ bool wait(PyJob& job, double seconds) {
   }
 }
 
+void checkpoint(PyJob& job, const Text& path, bool overwrite) {
+  without_gil([&] { job.checkpoint(path, overwrite); });
+}
+
 /// Returns (images, weights, b) of the independent groups of a render.
 py::tuple groups(PyJob& job) {
   const Rendering& rendering = job.rendering();
@@ -85,9 +89,17 @@ void judge_by(PyJob& job, py::function error) {
   });
 }
 
-std::optional<double> relative_error(const PyJob& job) {
-  const double error = without_gil([&] { return job.error()->relative.value; });
+std::optional<double> known(double error) {
   return std::isnan(error) ? std::nullopt : std::optional(error);
+}
+
+std::optional<double> relative_error(const PyJob& job) {
+  return known(without_gil([&] { return job.error()->relative.value; }));
+}
+
+std::optional<double> flicker(const PyJob& job, const PyJob& before) {
+  return known(
+      without_gil([&] { return error_of_change(before.rendering(), job.rendering()).value; }));
 }
 
 py::dict by_name(std::vector<NamedImage> images) {
@@ -154,12 +166,7 @@ void bind_render(py::module_& m) {
              std::optional<double> error) { job.extend({spp, time, error}); },
           py::arg("spp"), py::arg("time"), py::arg("error"), NoGil(),
           "After the end: go on to a larger budget.")
-      .def(
-          "checkpoint",
-          [](PyJob& job, const Text& path, bool overwrite) {
-            without_gil([&] { job.checkpoint(path, overwrite); });
-          },
-          py::arg("path"), py::arg("overwrite"))
+      .def("checkpoint", &checkpoint, py::arg("path"), py::arg("overwrite"))
       .def("groups", &groups,
            "(images, weights, b) of the independent groups: float32 (G, height, width, 3), float64 "
            "(G,) and (G,); without direct light that is rendered separately.")
@@ -179,6 +186,9 @@ void bind_render(py::module_& m) {
            "fireflies); None while there are fewer than four groups.")
       .def("relative_error", &relative_error,
            "The relative error so far, or None if nothing is known.")
+      .def("flicker", &flicker, py::arg("before"),
+           "After the end of both: the relative error of the change from the image of another job, "
+           "or None if nothing is known.")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def("light", &light, "The light of each lamp so far, by the names of these layers.")
       .def_property_readonly("light_groups", &light_groups)

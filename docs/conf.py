@@ -83,10 +83,14 @@ TOPICS = {
     ),
     "rendering": (
         "Rendering",
-        "render start resume render_progressive render_bands replay Job Replay",
+        "render start resume render_progressive render_bands render_shot replay Job Replay",
         ["rendering.cluster"],
     ),
-    "results": ("Results", "Result Groups Technique compare comparison_figure merge mix", []),
+    "results": (
+        "Results",
+        "Result Groups Frame Shot Technique compare comparison_figure merge mix",
+        [],
+    ),
     "images": (
         "Images and their files",
         "read_image write_image read_metadata tonemap denoise",

@@ -4,20 +4,14 @@
 #include "job/brightness_pyramid.h"
 #include "math/color.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 namespace mlt {
 namespace {
 
-constexpr int channels = 4;       // R, G, B and the target luminance L of each pixel or block
-constexpr int fewest_groups = 8;  // to speak of a disagreement
-/// Where fewer pixels carry a larger error, it is not to be relied on. Of renders of random scenes
-/// by mlt this and its uncertain_level find most whose error is not .8 to 1.25 times what they
-/// claim (docs/error-calibration.md).
-constexpr double few_pixels = 35, large_error = 0.12;
+constexpr int channels = 4;            // R, G, B and the target luminance L of each pixel or block
+constexpr int fewest_groups = 8;       // to speak of a disagreement
 constexpr double largest_share = 0.5;  // of a block's light from one of them
 constexpr double dark = 0.1;           // of the image's mean: below, blocks and pixels matter less
 /// A pixel is taken to be at least this part as bright as its mean: it may be a light that one
@@ -79,11 +73,22 @@ struct Groups {
   std::vector<float> remaining;
 };
 
+/// How the group of a render differs from that of another one, with the weight that 1 / variance of
+/// the difference has if it is the weight of each that 1 / variance is in proportion to.
+GroupImage difference(const GroupImage& from, GroupImage to) {
+  if (from.weight == 0 || to.weight == 0) return {};
+  for (size_t i = 0; i < to.image.data.size(); ++i) to.image.data[i] -= from.image.data[i];
+  to.weight = 1 / (1 / from.weight + 1 / to.weight);
+  return to;
+}
+
+/// The groups of a rendering; with `before`, how they differ from those of that one.
 struct GroupsOfRendering {
-  GroupsOfRendering(const Rendering& rendering, int layer) {
+  GroupsOfRendering(const Rendering& rendering, int layer, const Rendering* before = nullptr) {
     BlocksOfSequence sequence;
     for (int g = 0; g < Rendering::group_count; ++g) {
-      const GroupImage group = rendering.group(g, layer);
+      GroupImage group = rendering.group(g, layer);
+      if (before) group = difference(before->group(g, layer), std::move(group));
       if (group.weight == 0) continue;
       size = Vec2i(group.image.width, group.image.height);
       grid = block_grid(group.image);
@@ -125,9 +130,15 @@ class Total {
  public:
   explicit Total(const std::vector<const Groups*>& parts) {
     for (const Groups* part : parts) {
-      add(part->spread, part->remaining);
+      add_mean(part->spread);
+      add_variance(*part);
       brightness_.push_back(&part->brightness);
     }
+  }
+  /// Replaces the errors by those of other groups.
+  void take_errors(const std::vector<const Groups*>& parts) {
+    variance_.clear();
+    for (const Groups* part : parts) add_variance(*part);
   }
   void add_error(const std::vector<float>& errors) {
     for (size_t i = 0; i < errors.size(); ++i) variance_[i] += errors[i] * errors[i];
@@ -158,18 +169,40 @@ class Total {
   }
 
  private:
-  void add(const Spread& spread, const std::vector<float>& remaining) {
+  void add_mean(const Spread& spread) {
     mean_.resize(spread.size());
-    variance_.resize(spread.size());
-    for (size_t i = 0; i < spread.size(); ++i) {
-      mean_[i] += spread.mean()[i];
-      variance_[i] += static_cast<float>(remaining[i / channels] * spread.variance(i));
-    }
+    for (size_t i = 0; i < mean_.size(); ++i) mean_[i] += spread.mean()[i];
+  }
+  void add_variance(const Groups& part) {
+    variance_.resize(part.spread.size());
+    for (size_t i = 0; i < variance_.size(); ++i)
+      variance_[i] += static_cast<float>(part.remaining[i / channels] * part.spread.variance(i));
   }
 
   std::vector<float> mean_, variance_;
   std::vector<const BrightnessPyramid*> brightness_;
 };
+
+/// The groups of a rendering and of its parts, or how they differ from those of another one.
+std::vector<GroupsOfRendering> all_groups(const Rendering& rendering, int layer,
+                                          const Rendering* before = nullptr) {
+  std::vector<GroupsOfRendering> all;
+  all.emplace_back(rendering, layer, before);
+  const auto parts = rendering.parts();
+  for (size_t i = 0; i < parts.size(); ++i)
+    all.emplace_back(*parts[i], layer, before ? before->parts()[i] : nullptr);
+  return all;
+}
+
+std::vector<const Groups*> pixels_of(const std::vector<GroupsOfRendering>& all) {
+  std::vector<const Groups*> pixels;
+  for (const GroupsOfRendering& part : all) pixels.push_back(&part.pixels);
+  return pixels;
+}
+
+bool are_known(const std::vector<GroupsOfRendering>& all) {
+  return std::all_of(all.begin(), all.end(), [](const auto& part) { return part.count() >= 2; });
+}
 
 std::vector<Disagreement> disagreements(const GroupsOfRendering& groups, const Total& blocks) {
   if (groups.count() < fewest_groups) return {};
@@ -200,20 +233,15 @@ void count_pixels(const Image& image, ErrorEstimate& estimate) {
 }  // namespace
 
 ErrorEstimate estimate_error(const Rendering& rendering, int layer) {
-  std::vector<GroupsOfRendering> all;
-  all.emplace_back(rendering, layer);
-  for (const Rendering* part : rendering.parts()) all.emplace_back(*part, layer);
+  const std::vector<GroupsOfRendering> all = all_groups(rendering, layer);
   const GroupsOfRendering& groups = all[0];
   ErrorEstimate estimate;
   count_pixels(rendering.image(layer), estimate);
   estimate.groups = groups.count();
-  std::vector<const Groups*> parts_of_pixels, parts_of_blocks;
-  for (const GroupsOfRendering& part : all) {
-    if (part.count() < 2) return estimate;
-    parts_of_pixels.push_back(&part.pixels);
-    parts_of_blocks.push_back(&part.blocks);
-  }
-  Total pixels(parts_of_pixels), blocks(parts_of_blocks);
+  if (!are_known(all)) return estimate;
+  std::vector<const Groups*> parts_of_blocks;
+  for (const GroupsOfRendering& part : all) parts_of_blocks.push_back(&part.blocks);
+  Total pixels(pixels_of(all)), blocks(parts_of_blocks);
   if (const Image common = rendering.common_error(layer); !common.empty()) {
     const std::vector<float> values = with_luminance(common);
     pixels.add_error(values);
@@ -227,39 +255,16 @@ ErrorEstimate estimate_error(const Rendering& rendering, int layer) {
   return estimate;
 }
 
-std::vector<NamedImage> error_layers(const ErrorEstimate& estimate) {
-  if (estimate.pixels.empty()) return {};
-  Image spread(estimate.pixels.width, estimate.pixels.height, 3);
-  for (int y = 0; y < spread.height; ++y)
-    for (int x = 0; x < spread.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        spread.at(x, y, c) =
-            estimate.blocks.at(x / ErrorEstimate::block_size, y / ErrorEstimate::block_size, c);
-  return {{"error", estimate.pixels}, {"error_block", std::move(spread)}};
-}
-
-void add_error(const ErrorEstimate& estimate, Stats& stats) {
-  constexpr size_t most = 10;
-  stats.groups = estimate.groups;
-  stats.error = estimate.relative.value;
-  stats.block_error = estimate.relative_blocks.value;
-  stats.pixels_carrying_error = estimate.relative.carrying;
-  if (estimate.relative.carrying < few_pixels && estimate.relative.value > large_error)
-    stats.warnings.push_back(fmt::format(
-        "the error of {:.2g} is that of {:.0f} pixel{}: some light is found so rarely that the "
-        "true error may be several times larger; render for longer, or look whether another "
-        "integrator finds this light more easily",
-        estimate.relative.value, std::ceil(estimate.relative.carrying),
-        estimate.relative.carrying > 1 ? "s" : ""));
-  const std::vector<Disagreement>& all = estimate.disagreements;
-  if (all.empty()) return;
-  for (size_t i = 0; i < std::min(most, all.size()); ++i)
-    stats.disagreements.push_back({all[i].pixel.x, all[i].pixel.y, all[i].share});
-  stats.warnings.push_back(fmt::format(
-      "in {} of {} blocks of 8 x 8 pixels one of {} independent groups has found most of the "
-      "light, the brightest at pixel ({}, {}); to have these right too, give the render more time, "
-      "or look whether another integrator finds this light more easily",
-      all.size(), estimate.block_count(), estimate.groups, all[0].pixel.x, all[0].pixel.y));
+RelativeError error_of_change(const Rendering& before, const Rendering& after) {
+  const std::vector<GroupsOfRendering> seen = all_groups(after, Rendering::all_light),
+                                       changes = all_groups(after, Rendering::all_light, &before);
+  if (!are_known(changes)) return {};
+  Total pixels(pixels_of(seen));
+  pixels.take_errors(pixels_of(changes));
+  for (const Rendering* one : {&before, &after})
+    if (const Image common = one->common_error(); !common.empty())
+      pixels.add_error(with_luminance(common));
+  return pixels.relative();
 }
 
 }  // namespace mlt

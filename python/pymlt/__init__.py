@@ -48,6 +48,7 @@ from .rendering.merging import merge
 from .rendering.mixing import mix
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result
+from .rendering.shot import Frame, Shot, render_shot
 from .rendering.start import (
     render,
     render_bands,
@@ -71,6 +72,7 @@ __all__ = [
     "Convergence",
     "Error",
     "FileError",
+    "Frame",
     "Groups",
     "Integrator",
     "Job",
@@ -85,6 +87,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "SceneParameters",
+    "Shot",
     "Technique",
     "Transform",
     "UsageError",
@@ -114,6 +117,7 @@ __all__ = [
     "render",
     "render_bands",
     "render_progressive",
+    "render_shot",
     "replay",
     "resume",
     "scenes",

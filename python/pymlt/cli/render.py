@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import fields
-
 from .. import _core
-from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
-from ..pictures.output import EXTENSIONS, check_writable
+from ..pictures.output import EXTENSIONS
 from ..rendering.bands import add_bands, check_spectral, parse_bands, share_of_time
 from ..rendering.job import Job
 from ..rendering.needed import needed
-from ..rendering.options import RenderOptions
-from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from .common import FLAGS, add_flag, load_scene, reader, say, warn
-from .display import EXPOSURE_HELP, add_bits, add_tonemap, exposure
+from .display import EXPOSURE_HELP, add_bits, add_tonemap
 from .resuming import SAVED, resumed, to_come
+from .running import check_outputs, given, options_of, save, wait
+from .shot import add_shot, check_shot, run_shot
 from .signals import Signals
 
 HELP = "Render a scene to image files."
@@ -60,11 +56,7 @@ def add_arguments(command) -> None:
         "then means; the filter is box, unless --filter names one; an .exr keeps the image as its "
         "layer noisy",
     )
-
-
-def given(args) -> dict:
-    values = {name: getattr(args, name) for name in FLAGS}
-    return {name: v for name, v in values.items() if not (v is None or v is False or v == [])}
+    add_shot(command)
 
 
 def check(args) -> None:
@@ -75,23 +67,18 @@ def check(args) -> None:
         _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
         if args.bands and (args.checkpoint or args.resume):
             raise _core.UsageError("--bands cannot be given with --checkpoint or --resume")
+        check_shot(args)
     except _core.UsageError as error:
         raise _core.UsageError(f"{error}; see pymlt render --help") from None
 
 
 def start(args, signals: Signals) -> Job:
-    values = given(args)
-    options = RenderOptions(
-        **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
-    )
-    options.fireflies, options.denoise = args.fireflies, args.denoise
+    options = options_of(args)
     if args.resume:
         job = signals.abandonable(lambda: resumed(args, options))._start()
         if not args.quiet:
             say(to_come(job, options))
         return job
-    if args.denoise and args.filter is None:
-        args.filter = "box"
     scene = signals.abandonable(lambda: load_scene(args))
     if args.bands:
         check_spectral(scene, "--spectral")
@@ -101,15 +88,9 @@ def start(args, signals: Signals) -> Job:
 
 def run(args) -> int:
     check(args)
-    for path in args.output:
-        check_writable(path, args.bits)
-    if args.stats:
-        _core.check_file_writable(args.stats)
-    import numpy  # noqa: F401 (what writing needs is there before the work begins)
-
-    if args.denoise:
-        import_extra("pyoidn", "denoise", "--denoise")
-
+    if args.frames:
+        return run_shot(args)
+    check_outputs(args, args.output)
     with Signals() as signals:
         job = start(args, signals)
         known = job.stats["warnings"]
@@ -154,14 +135,6 @@ def doubts(args, job: Job) -> list[str]:
     return list(filter(None, found))
 
 
-def wait(job: Job, signals: Signals, quiet: bool) -> None:
-    with progress_bar(False if quiet else None) as show:
-        while not job.wait(0.1):
-            if signals.caught:
-                job.cancel()
-            show(job.progress, job._figures)
-
-
 def render_bands(args, result: Result, job: Job, signals: Signals) -> None:
     """Adds the layers of the bands. What there is so far is saved if one of them fails."""
     try:
@@ -169,16 +142,3 @@ def render_bands(args, result: Result, job: Job, signals: Signals) -> None:
     except _core.RenderError:
         save(args, result)
         raise
-
-
-def save(args, result: Result) -> tuple[list[str], bool]:
-    """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
-    everything is where it was asked for."""
-    files = [result._save(path, exposure(args), args.tonemap, args.bits) for path in args.output]
-    images = [path for path, _ in files if path]
-    if args.stats:
-        files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))
-    problems = [problem for _, problem in files if problem]
-    for problem in problems:
-        say(problem)
-    return images, not problems

@@ -105,6 +105,13 @@ class Job:
         """
         return self._job.relative_error()
 
+    def flicker(self, before: Job) -> float | None:
+        """The relative error of the change from the image of another render to this one's.
+
+        Both have ended, are of the same size and by the same integrator. None if it is not known.
+        """
+        return self._job.flicker(before._job)
+
     def denoised(self) -> NDArray[np.float32]:
         """The image so far without most of its noise, like that of a result with `denoise=True`.
 

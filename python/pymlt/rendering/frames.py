@@ -1,0 +1,119 @@
+"""The frames of a shot: their numbers, their times, and the names of their files."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections import Counter
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from .. import _core
+from .options import integer, number
+
+Frames = int | str | Iterable[int]
+
+PLACE = re.compile(r"#+|%(?:0\d+)?d")
+LAST = 10**9
+
+
+def parse_frames(frames: Frames) -> list[int]:
+    """The numbers of 7, "1:24", "1:24,31", or of a range, each once. Raises UsageError."""
+    if isinstance(frames, str):
+        found = [n for part in frames.split(",") for n in _parse_part(part, frames)]
+    else:
+        given = frames if isinstance(frames, Iterable) else [frames]
+        found = [integer("a frame", n, LAST) for n in given]
+    if not found:
+        raise _core.UsageError(f"frames is {frames!r}, which has none; give some, as in '1:24'")
+    twice = [n for n, count in Counter(found).items() if count > 1]
+    if twice:
+        raise _core.UsageError(f"frames is {frames!r}, which has frame {twice[0]} twice")
+    return found
+
+
+def _parse_part(part: str, frames: str) -> range:
+    match = re.fullmatch(r"\s*(\d{1,9})(?::(\d{1,9}))?\s*", part)
+    if not match:
+        raise _core.UsageError(
+            f"frames is {frames!r}, but should be the first and the last one, as in 1:24, or "
+            "several of these, as in 1:24,31:40"
+        )
+    first = int(match[1])
+    last = int(match[2] or first)
+    if last < first:
+        raise _core.UsageError(
+            f"frames is {frames!r}, but frame {last} comes before {first}; write {last}:{first}"
+        )
+    return range(first, last + 1)
+
+
+def check_pattern(pattern: str | os.PathLike[str]) -> str:
+    """The name of the files of frames, with one place for the number. Raises UsageError."""
+    text = os.fspath(pattern)
+    places = len(PLACE.findall(text))
+    if places != 1:
+        stem, extension = os.path.splitext(PLACE.sub("", text))
+        right = f"{stem.rstrip('._-') or 'shot'}.####{extension}"
+        raise _core.UsageError(
+            f"{text} has {places or 'no'} places for the number of a frame; write {right}"
+        )
+    return text
+
+
+def file_of(pattern: str, frame: int) -> str:
+    """shot.0007.exr for shot.####.exr or shot.%04d.exr."""
+
+    def digits(place: re.Match) -> str:
+        return place[0] % frame if place[0][0] == "%" else f"{frame:0{len(place[0])}}"
+
+    return PLACE.sub(digits, pattern)
+
+
+class Timing(NamedTuple):
+    """Frame f is seen while the shutter is open, from f / fps to (f + shutter) / fps."""
+
+    fps: float
+    shutter: float
+
+    def times(self, frame: int) -> tuple[float, float]:
+        return frame / self.fps, (frame + self.shutter) / self.fps
+
+
+def timing(fps: float, shutter: float) -> Timing:
+    """Raises UsageError for what is no number of frames per second, or no share of a frame."""
+    found = Timing(number("fps", fps) or 0.0, number("shutter", shutter) or 0.0)
+    if not (math.isfinite(found.fps) and found.fps > 0):
+        raise _core.UsageError(f"fps is {fps!r}, but should be a number above 0, such as 24")
+    if not 0 <= found.shutter <= 1:
+        raise _core.UsageError(
+            f"shutter is {shutter!r}, but should be the share of a frame for which it is open, "
+            "from 0 to 1"
+        )
+    return found
+
+
+def scene_at(scene: _core.Scene, times: tuple[float, float]) -> _core.Scene:
+    """The scene as its sensors see it between these times."""
+    values = {}
+    for name in scene.parameters():
+        for side, time in zip((".shutter_open", ".shutter_close"), times, strict=True):
+            if name.endswith(side):
+                values[name] = time
+    return scene.updated(values)
+
+
+def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str | None:
+    """The warning for a shot in which nothing moves."""
+    first, last = timing.times(min(frames))[0], timing.times(max(frames))[1]
+    keys = [list(v) for v in scene.parameters().values() if isinstance(v, dict) and len(v) > 1]
+    if not keys:
+        return "nothing in the scene has an animation: all frames show the same"
+    if any(min(times) < last and max(times) > first for times in keys):
+        return None
+    start, end = min(map(min, keys)), max(map(max, keys))
+    return (
+        f"nothing moves from {first:g} to {last:g} s, the time of these frames: the scene's "
+        f"animations go from {start:g} to {end:g} s"
+    )

@@ -1,0 +1,155 @@
+"""Shots: frames that are rendered one after the other, and how much they flicker."""
+
+from __future__ import annotations
+
+import math
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from .. import _core
+from ..algorithms.integrator import IntegratorLike, as_integrator
+from ..formats.loading import SceneLike, SensorLike, as_scene
+from .bands import finish
+from .frames import Frames, Timing, check_pattern, file_of, parse_frames, scene_at, stands_still
+from .frames import timing as checked_timing
+from .job import Job
+from .options import RenderOptions
+from .progress import progress_bar
+from .stats import Stats
+
+
+@dataclass
+class Frame:
+    """A frame of a shot that has been rendered."""
+
+    number: int
+    files: list[str]  #: where its image is
+    stats: Stats  #: what its render tells about itself
+    #: the relative error of the change from the frame before; None for the first frame, and if it
+    #: is not known
+    flicker: float | None
+
+
+@dataclass
+class Shot:
+    """What the renders of the frames of a shot left behind."""
+
+    frames: list[Frame] = field(default_factory=list)
+    skipped: list[int] = field(default_factory=list)  #: frames whose files existed
+
+    @property
+    def error(self) -> float | None:
+        """The root of the mean square of the frames' `stats["error"]`."""
+        return _root_mean_square(frame.stats.get("error") for frame in self.frames)
+
+    @property
+    def flicker(self) -> float | None:
+        """The root of the mean square of the flicker of frames."""
+        return _root_mean_square(frame.flicker for frame in self.frames)
+
+    @property
+    def stats(self) -> dict[str, Any]:
+        """What `--stats` writes of a shot."""
+        frames = [
+            {"frame": f.number, "files": f.files, "flicker": f.flicker, "stats": f.stats}
+            for f in self.frames
+        ]
+        whole = {"error": self.error, "flicker": self.flicker, "skipped": self.skipped}
+        return {**whole, "frames": frames}
+
+
+def _root_mean_square(values) -> float | None:
+    known = [value for value in values if value is not None]
+    return math.sqrt(sum(v * v for v in known) / len(known)) if known else None
+
+
+def frames_to_render(
+    frames: list[int], patterns: list[str], skip_existing: bool
+) -> tuple[list[int], list[int]]:
+    """The frames to be rendered, and those of which all files exist, if these are skipped."""
+
+    def exists(frame: int) -> bool:
+        return skip_existing and all(os.path.exists(file_of(p, frame)) for p in patterns)
+
+    return [f for f in frames if not exists(f)], [f for f in frames if exists(f)]
+
+
+def render_frames(
+    scene: _core.Scene,
+    integrator_of: Callable[[_core.Scene], _core.Integrator],
+    timing: Timing,
+    frames: list[int],
+    options: RenderOptions,
+    wait: Callable[[Job], object],
+) -> Iterator[tuple[int, Job, float | None]]:
+    """Each frame's number, its render, which has ended, and its flicker. None after a render that
+    was cancelled, which is not among them."""
+    before: tuple[int, Job] | None = None
+    for frame in frames:
+        seen = scene_at(scene, timing.times(frame))
+        job = Job(seen, integrator_of(seen), options)._start()
+        finish(job, wait)
+        if job.cancelled:
+            return
+        follows = before is not None and before[0] == frame - 1
+        yield frame, job, job.flicker(before[1]) if before and follows else None
+        before = frame, job
+
+
+def render_shot(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = None,
+    *,
+    frames: Frames,
+    output: str | os.PathLike[str],
+    fps: float = 24,
+    shutter: float = 0.5,
+    skip_existing: bool = False,
+    sensor: SensorLike | None = None,
+    spectral: bool = False,
+    progress: bool | Callable[[float], object] | None = None,
+    **settings: Any,
+) -> Shot:
+    """Render the frames of a shot to files, one after the other, all with the same seed.
+
+    frames
+        "1:24" from the first to the last, "1:24,31" more of them, a number, or numbers.
+    output
+        the files, as in "shot.####.exr" or "shot.%04d.exr".
+    fps, shutter
+        frame f is seen from the time f / fps of the scene's animations on, while the shutter is
+        open, for this share of a frame.
+    skip_existing
+        whether frames whose files exist are left out.
+
+    The other arguments are those of `start`, and hold for each frame: `spp` and `time` are those of
+    one; there is no `checkpoint`. `progress` is that of `render`. Warns of a shot in which nothing
+    moves. Raises UsageError for frames, files and times that make no sense, and what `render`
+    raises.
+    """
+    options = RenderOptions(**settings)
+    if options.checkpoint is not None:
+        raise _core.UsageError("a shot has no checkpoint; skip_existing=True goes on with one")
+    numbers, pattern = parse_frames(frames), check_pattern(output)
+    when = checked_timing(fps, shutter)
+    scene = as_scene(scene, sensor, spectral)
+    if warning := stands_still(scene, when, numbers):
+        warnings.warn(warning, stacklevel=2)
+    to_come, skipped = frames_to_render(numbers, [pattern], skip_existing)
+    shot = Shot(skipped=skipped)
+    with progress_bar(progress) as show:
+
+        def wait(job: Job) -> None:
+            ended = len(shot.frames)
+            job.wait(progress=lambda share: show((ended + share) / len(to_come), {}))
+
+        for frame, job, flicker in render_frames(
+            scene, lambda seen: as_integrator(seen, integrator), when, to_come, options, wait
+        ):
+            result = job.result()
+            result.write(file_of(pattern, frame))
+            shot.frames.append(Frame(frame, [file_of(pattern, frame)], result.stats, flicker))
+    return shot
