@@ -78,10 +78,10 @@ double ManifoldGuide::guess(const Vertex* first, int m, double lobes) const {
 namespace {
 
 /// Light is rare if other techniques have less than this share of its density.
-constexpr double rare_share = 0.01;
-/// The least share of rare light for which chains are searched, and that of chains with the same
-/// lobes.
-constexpr double least_rare = 0.04, least_rare_of_lobes = 0.01;
+constexpr double rare_share = 0.1;
+/// The least share of rare light for which chains are searched, where samples that search take no
+/// longer than others, and the part of it along chains with the same lobes.
+constexpr double least_rare = 0.002, least_part = 0.25;
 
 /// Samples of bidirectional path tracing that search for all chains.
 class ManifoldLessons {
@@ -95,22 +95,31 @@ class ManifoldLessons {
 
   /// Takes samples until there are `count`, or they have taken the most rays.
   void take(uint64_t count) {
-    for (; taken_ < count && rays_.total() < most_rays_; ++taken_) {
+    for (; taken_ < count && rays_.total() + searching_.total() < most_rays_; ++taken_) {
       Rng rng(0, Purpose::manifold, taken_);
       RandomSampler sampler(rng);
       paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays_);
-      paths_.connect_all(rays_, [&](const Connection& c) { learn(c); });
+      const auto found = [&](const Connection& c) { learn(c); };
+      paths_.connect_walks(rays_, found);
+      paths_.connect_by_manifolds(searching_, found);
     }
   }
 
-  /// The share of rare light, scattered before it comes to the lens.
-  double rare() const { return light_ > 0 ? rare_scattered_ / light_ : 0; }
+  /// The share of rare light, scattered before it comes to the lens, that is worth the searches.
+  double least() const {
+    const double search = static_cast<double>(searching_.total());
+    return least_rare * (1 + search / static_cast<double>(rays_.total()));
+  }
+  /// Whether there is this multiple of it.
+  bool pay(double multiple) const {
+    return light_ > 0 && rare_scattered_ / light_ >= multiple * least();
+  }
   /// For the lobes of the chains to be found, how often these are found over the probability of
   /// the lobes.
   std::unordered_map<uint64_t, double> ratios() const {
     std::unordered_map<uint64_t, double> ratios;
     for (const auto& [lobes, chains] : classes_)
-      if (chains.rare >= least_rare_of_lobes * light_) ratios[lobes] = chains.found / chains.again;
+      if (chains.rare >= least_part * least() * light_) ratios[lobes] = chains.found / chains.again;
     return ratios;
   }
 
@@ -155,7 +164,7 @@ class ManifoldLessons {
   std::unordered_map<uint64_t, Chains> classes_;
   double light_ = 0, rare_scattered_ = 0;
   uint64_t taken_ = 0;
-  RayCounts rays_;
+  RayCounts rays_, searching_;
   Path path_;
   PathTerms terms_;
 };
@@ -185,9 +194,9 @@ std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const P
   all->set_most_searches(most_searches);
   ManifoldLessons lessons(scene, rules, all, most_rays);
   lessons.take(first_samples);
-  if (lessons.rare() < least_rare / 2) return nullptr;
+  if (!lessons.pay(0.5)) return nullptr;
   lessons.take(samples);
-  if (lessons.rare() < least_rare) return nullptr;
+  if (!lessons.pay(1)) return nullptr;
   auto ratios = lessons.ratios();
   if (ratios.empty()) return nullptr;
   guide->choose(std::move(ratios));

@@ -3,8 +3,8 @@
 //
 // Chains are told apart by their lobes alone. Searching costs time, and many scenes do without: a
 // walk from a large lamp passes through a glass, or one from the camera hits the lamp behind it. So
-// chains are searched for where much of the light is rare, which means that other techniques have
-// less than a hundredth of the density with which all together find it.
+// chains are searched for where much of the light is rare, for the rays that it takes: other
+// techniques have less than a tenth of the density with which all together find it.
 #pragma once
 
 #include "base/rng.h"
