@@ -66,14 +66,10 @@ inline std::set<std::string> media_scene_names() {
 inline std::set<std::string> spectral_scene_names() {
   return {"spectral_room", "prism", "frosted_prism", "spectral_fog", "prism_beam"};
 }
-/// Those without media, as BidirectionalWave requires, and one of many lights.
-inline std::vector<std::string> clear_scene_names() {
+/// All for which there are waves of bidirectional path tracing, and one of many lights.
+inline std::vector<std::string> wave_scene_names() {
   std::vector<std::string> names = scene_names();
-  const auto is_left_out = [](const std::string& name) {
-    return media_scene_names().count(name) > 0;
-  };
-  names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
-  names.push_back("lamps");
+  for (const char* name : {"volume_caustic", "solids", "openpbr", "lamps"}) names.push_back(name);
   return names;
 }
 
