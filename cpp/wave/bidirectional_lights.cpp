@@ -4,11 +4,6 @@
 
 namespace mlt {
 
-const MeshLight& BidirectionalWave::mesh_light(uint32_t index) const {
-  static const MeshLight none;
-  return scene_->starts_in_surroundings(index) ? scene_->mesh_light(index) : none;
-}
-
 void BidirectionalWave::walk_from_lights(RayCounts& rays) {
   light_.clear();
   WaveNumbers::Place& places = numbers_.places();

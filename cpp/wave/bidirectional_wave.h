@@ -98,7 +98,9 @@ class BidirectionalWave {
   int block_count() const { return whole_vectors(size()) / JointLanes::size; }
 
   /// The light if it is an emissive mesh all of whose rays start in its surroundings.
-  const MeshLight& mesh_light(uint32_t index) const;
+  const MeshLight& mesh_light(uint32_t index) const {
+    return scene_->starts_in_surroundings(index) ? scene_->mesh_light(index) : other_light_;
+  }
   void start_samples();
   void draw_lens();
   void walk_from_camera(RayCounts& rays);
@@ -144,6 +146,7 @@ class BidirectionalWave {
   MisExponent beta_;
   bool one_lens_;  ///< Whether all samples have the same position on the lens, and the same time.
   std::vector<SingleWalkVertex> lenses_;
+  MeshLight other_light_;  ///< Stands for lights that are no such mesh.
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.

@@ -3,10 +3,12 @@
 
 namespace mlt {
 
-void SubpathWave::find_surface_point(int walk, const mlt::Hit& hit, SurfacePoint& at) {
-  const WaveLeg* leg = this->leg(walk);
+void SubpathWave::find_surface_point(int walk, SurfacePoint& at) {
   const Ray& ray = exact_ray(walk);
-  scene_->find_surface_point(leg ? leg->ray : ray, hit, at);
+  if (const WaveLeg* leg = this->leg(walk))
+    scene_->find_surface_point(leg->ray, leg->hit, at);
+  else
+    scene_->find_surface_point(ray, hit(walk), at);
 }
 
 void SubpathWave::find_vertices(int place) {
@@ -23,28 +25,34 @@ inline void SubpathWave::find_vertex(int i, int place) {
   const int walk = begin_ + i;
   lambertian_.f[i] = nullptr;
   single_[i] = nullptr;
-  const WaveLeg* leg = this->leg(walk);
-  if (leg && leg->in_medium()) return find_in_medium(i, place, *leg);
-  const mlt::Hit hit = leg ? leg->hit : this->hit(walk);
+  if (const WaveLeg* leg = this->leg(walk))
+    find_behind(i, place, *leg);
+  else
+    find_on_surface(i, place, hit(walk), nullptr);
+}
+
+/// Finds the vertex at the end of a leg.
+void SubpathWave::find_behind(int i, int place, const WaveLeg& leg) {
+  if (leg.in_medium())
+    find_in_medium(i, place, leg);
+  else
+    find_on_surface(i, place, leg.hit, &leg);
+}
+
+/// Finds the vertex where a ray has hit a surface, or none.
+inline void SubpathWave::find_on_surface(int i, int place, const mlt::Hit& hit,
+                                         const WaveLeg* leg) {
+  const int walk = begin_ + i;
   if (hit.shape == SurfacePoint::no_shape) {
     if (pass(i, place, nullptr)) leave_scene(walk, place);
     return;
   }
   const LaneMesh& shape = scene_->lane_mesh(hit.shape);
-  if (shape.lambertian && is_in_lanes(hit.shape, leg))
-    find_in_lanes(i, place, shape, hit);
-  else
-    find_other(i, place, hit);
-}
-
-/// Finds a Lambertian vertex on a mesh.
-inline void SubpathWave::find_in_lanes(int i, int place, const LaneMesh& shape,
-                                       const mlt::Hit& hit) {
-  const int walk = begin_ + i;
+  if (!(shape.lambertian && is_in_lanes(hit.shape, leg))) return find_other(i, place);
   if (!pass(i, place, nullptr)) return;
   if (shape.emits && !from_light_) {
     SurfacePoint at;
-    find_surface_point(walk, hit, at);
+    find_surface_point(walk, at);
     find_light(walk, place, at);
   }
   lambertian_.set(i, shape, hit.primitive, hit.u, hit.v, wavelength_[sample_[walk]]);
@@ -64,9 +72,9 @@ void SubpathWave::find_light(int walk, int place, const SurfacePoint& at) {
 }
 
 /// Finds a vertex that is not a Lambertian one on a mesh.
-void SubpathWave::find_other(int i, int place, const mlt::Hit& hit) {
+void SubpathWave::find_other(int i, int place) {
   SurfacePoint at;
-  find_surface_point(begin_ + i, hit, at);
+  find_surface_point(begin_ + i, at);
   if (!pass(i, place, &at)) return;
   find_light(begin_ + i, place, at);
   add_single(i, at);

@@ -15,8 +15,7 @@ void SubpathWave::follow_legs(RayCounts& rays) {
 
 /// Takes what a walk has passed on the way to its next vertex (Subpath::pass): `at`, or (nullptr)
 /// where nothing is passed and there is no medium. False if that lets no light through.
-bool SubpathWave::pass(int i, int place, const SurfacePoint* at) {
-  if (!scene_->has_passages()) return true;
+bool SubpathWave::pass_leg(int i, int place, const SurfacePoint* at) {
   const int walk = begin_ + i;
   transmitted_[i] = Spectrum(1);
   const WaveLeg* leg = this->leg(walk);

@@ -82,11 +82,16 @@ class SubpathWave {
   void find_vertices(int place);
   void find_vertex(int i, int place);
   bool is_in_lanes(uint32_t shape, const WaveLeg* leg) const;
-  void find_in_lanes(int i, int place, const LaneMesh& shape, const mlt::Hit& hit);
-  void find_other(int i, int place, const mlt::Hit& hit);
+  void find_behind(int i, int place, const WaveLeg& leg);
+  [[gnu::always_inline]] void find_on_surface(int i, int place, const mlt::Hit& hit,
+                                              const WaveLeg* leg);
+  void find_other(int i, int place);
   void find_in_medium(int i, int place, const WaveLeg& leg);
   void add_single(int i, const SurfacePoint& at);
-  bool pass(int i, int place, const SurfacePoint* at);
+  bool pass(int i, int place, const SurfacePoint* at) {
+    return !scene_->has_passages() || pass_leg(i, place, at);
+  }
+  bool pass_leg(int i, int place, const SurfacePoint* at);
   void find_techniques(int place);
   void arrive();
   void arrive_alone();
@@ -114,7 +119,7 @@ class SubpathWave {
   }
   /// Its ray in double precision.
   const Ray& exact_ray(int walk);
-  void find_surface_point(int walk, const mlt::Hit& hit, SurfacePoint& at);
+  void find_surface_point(int walk, SurfacePoint& at);
   mlt::Hit hit(int walk) const {
     return found_[walk / RayPacket::size].hit(walk % RayPacket::size);
   }
