@@ -29,6 +29,12 @@ Passage Scene::pass_surfaces(Ray& ray) const {
   return all;
 }
 
+Passage Scene::pass(Ray& ray, bool surfaces) const {
+  Passage all = surfaces ? pass_surfaces(ray) : Passage();
+  if (ray.medium != no_medium) fly(media_[ray.medium], ray, ray.before + ray.t_max, all);
+  return all;
+}
+
 Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   const std::optional<Ray> between = segment(a, b, time);
   if (!between) return Passage::blocked();

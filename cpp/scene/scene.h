@@ -85,6 +85,12 @@ class Scene {
                                                         : light.surroundings();
     if (light.glowing() && (x0.at.medium == no_medium || emitter(x0.at) != &light)) x0.pdf = 0;
   }
+  /// Whether all rays from a light start in its surroundings.
+  bool starts_in_surroundings(uint32_t light) const {
+    if (!has_media_) return true;
+    const Shape* shape = emitters_[light]->shape();
+    return !lights_in_many_media_[light] && !(shape && media_.is_boundary(shape->index()));
+  }
   /// The medium of a point in one.
   const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
   /// The medium in which a ray from the point along w starts.
@@ -122,6 +128,8 @@ class Scene {
   Passage passage(Ray& ray) const;
   /// As above, for a ray that no surface blocks but some may dim.
   Passage pass_surfaces(Ray& ray) const;
+  /// The light that goes through all media of such a ray, and through surfaces if it has any.
+  Passage pass(Ray& ray, bool surfaces) const;
   /// The light that goes straight from a to b, through all surfaces and media between them.
   Passage passage(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// The probability that a walk along w, which has come to this point, stops there and does not go

@@ -42,7 +42,7 @@ void BidirectionalWave::draw_lens() {
     lenses_[i].x.vertex = camera_vertex(lens.at);
     lenses_[i].x.forward = lens.pdf;
     lenses_[i].x.throughput = Spectrum(1 / lens.pdf);
-    lenses_[i].technique = camera.can_be_hit() ? 1 : 0;
+    lenses_[i].technique = camera.can_be_hit() && settings_.light_image ? 1 : 0;
   }
 }
 

@@ -24,7 +24,7 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
   uint32_t triangles[block_size];
   for (int i = 0; i < count; ++i) {
     const EmitterChoice choice = scene_->choose_emitter(u_choice_[begin + i]);
-    const MeshLight& light = scene_->mesh_light(choice.index);
+    const MeshLight& light = mesh_light(choice.index);
     choices[i] = choice;
     walk_emitter_[begin + i] = choice.index;
     if (!light.mesh) continue;
@@ -42,7 +42,7 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
   lights_.find_points(count, &down.x[0], &down.y[0], &down.z[0], false);
   lights_.sample_directions(count, false);
   for (int i = 0; i < count; ++i) {
-    if (!scene_->mesh_light(choices[i].index).mesh) {
+    if (!mesh_light(choices[i].index).mesh) {
       start_at_other_light(begin + i, choices[i], {lights_.u_x[i], lights_.u_y[i]});
       continue;
     }
@@ -50,7 +50,8 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
     if (!(pdf > 0) || !(forward > 0) || is_black(*lights_.radiance[i])) continue;
     const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
     light_.start({begin + i, Vec3(lights_.p[i]), lights_.o[i], lights_.w[i], cosine, pdf, forward,
-                  1, *lights_.radiance[i] * (pi / forward)},
+                  1, *lights_.radiance[i] * (pi / forward), 1, 1, false, false,
+                  choices[i].emitter->surroundings()},
                  time(begin + i), wavelength_[begin + i], choices[i].index, triangles[i]);
   }
 }
@@ -74,7 +75,7 @@ void BidirectionalWave::start_at_other_light(int i, const EmitterChoice& choice,
   if (is_black(radiance)) return;
   light_.start({i, x0.at.p, Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
                 static_cast<float>(pdf * cosine), end.x.forward, can_be_hit(*scene_, x0) ? 1. : 0.,
-                radiance / (end.x.forward * pdf)},
+                radiance / (end.x.forward * pdf), 1, x0.at.in_medium() ? 0. : 1.},
                ray, end);
 }
 
@@ -85,7 +86,7 @@ void BidirectionalWave::choose_direct(int place) {
   for (int begin = 0; begin < size(); begin += block_size) {
     const int count = std::min(block_size, size() - begin);
     numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
-    if (scene_->emitters().size() > 1) numbers_.read(at.choice, begin, count, &u_choice_[begin]);
+    if (scene_->needs_light_choice()) numbers_.read(at.choice, begin, count, &u_choice_[begin]);
     for (int i = 0; i < count; i += JointLanes::size)
       choose_direct(place, (begin + i) / JointLanes::size, i);
   }
@@ -112,7 +113,7 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
         place > 0 ? position(camera_.joints(place, block), lane) : lens(i).x.vertex.at.p;
     const EmitterChoice choice = scene_->choose_emitter_for(from, u_choice_[i]);
     direct_emitter_[i] = choice.index;
-    const MeshLight& light = scene_->mesh_light(choice.index);
+    const MeshLight& light = mesh_light(choice.index);
     if (!light.mesh) {
       choose_other_direct(i, from, choice);
       continue;
@@ -125,6 +126,7 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
                              (light.mesh->area() / point.per_pdf);
     technique.own[lane] = beta_.raise(over_walk);
     to.cosine[lane] = 1;
+    to.medium[lane] = choice.emitter->surroundings();
     to.forward[lane] = pdf / over_walk;
     to.value.set(lane, *lights_.radiance[first + lane] * (1 / pdf));
   }

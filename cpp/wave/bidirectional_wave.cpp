@@ -39,8 +39,8 @@ void find_edges(const JointLanes& a, const JointTechnique& technique, const Surf
 
 bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
   return settings.rules.waves && settings.sample_direct &&
-         settings.heuristic != Heuristic::maximum && !settings.manifolds && !scene.has_media() &&
-         !scene.camera().clips_far();
+         settings.heuristic != Heuristic::maximum && !settings.manifolds &&
+         !scene.has_coloured_media() && !scene.camera().clips_far();
 }
 
 BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings,
@@ -134,8 +134,9 @@ void BidirectionalWave::take_hits(RayCounts& rays) {
   for (const SubpathWave::Hit& hit : light_.hits()) {
     make_room_for_shadows(rays);
     wait_for_shadow({hit.sample, false, hit.survival, hit.certainty, hit.raster},
-                    {weighted(hit), hit.dispersed, hit.scaled, hit.fixed}, Vec3f(hit.to_lens.o),
-                    Vec3f(hit.to_lens.d), static_cast<float>(hit.to_lens.t_max));
+                    {weighted(hit), hit.dispersed, hit.scaled, hit.fixed, hit.to_lens.medium},
+                    Vec3f(hit.to_lens.o), Vec3f(hit.to_lens.d),
+                    static_cast<float>(hit.to_lens.t_max));
   }
 }
 
@@ -170,11 +171,12 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
         continue;
       }
       if (!(joining.length[i] > 0)) continue;
-      if (technique(s, block).near[i] == 0) leave_scene(b, i, a.p[i], joining);
-      wait_for_shadow(
-          {sample, true, a.survival[i] * b.survival[i], 0, rasters_[sample]},
-          {joined.get(i, lanes()), a.dispersed[i] || b.dispersed[i], joining.others[i], 0},
-          joining.o[i], joining.w[i], joining.length[i]);
+      const bool infinite = technique(s, block).near[i] == 0;
+      if (infinite) leave_scene(b, i, a.p[i], joining);
+      wait_for_shadow({sample, true, a.survival[i] * b.survival[i], 0, rasters_[sample]},
+                      {joined.get(i, lanes()), a.dispersed[i] || b.dispersed[i], joining.others[i],
+                       0, infinite ? b.medium[i] : a.medium[i]},
+                      joining.o[i], joining.w[i], joining.length[i]);
     }
   }
 }
@@ -193,10 +195,10 @@ void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const
   JoinedEdge joined;
   if (!joined.find(*scene_, x, y, settings_.rules.strict_normals)) return;
   if (infinite) joined.a.onwards = technique.onwards[i];
-  double certainty = sees_light ? 1 : 0;
+  double certainty = sees_light && !x.vertex.at.in_medium() ? 1 : 0;
   if (scene_->has_passages()) {
-    if (!to_lens) joined.a.onwards *= stop_probability(*scene_, b, i, joined.edge.w);
-    const double stops = stop_probability(*scene_, a, i, -joined.edge.w);
+    if (!to_lens) joined.a.onwards *= arrival(*scene_, b, i, joined.edge.w).probability();
+    const double stops = arrival(*scene_, a, i, -joined.edge.w).probability();
     joined.b.onwards *= stops;
     certainty *= stops;
   }
@@ -206,13 +208,14 @@ void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const
     below = beta_.over(sums(a, i, joined.a.back), joined.b.onwards * G / a.forward[i]) / own;
     above = beta_.over(sums(b, i, joined.b.back), joined.a.onwards * G / b.forward[i]) / own;
   }
-  const auto ray = scene_->segment(x.vertex.at, y.vertex.at, time(sample));
+  auto ray = scene_->segment(x.vertex.at, y.vertex.at, time(sample));
   if (!ray) return;
+  if (scene_->has_media() && !infinite) ray->medium = medium_towards(*scene_, a, i, ray->d);
   wait_for_shadow(
       {sample, !to_lens, a.survival[i] * b.survival[i], certainty,
        to_lens ? joined.raster : rasters_[sample]},
       {joined.light * mis_weight(1, below, above), joined.a.dispersed || joined.b.dispersed,
-       to_lens ? below : below + above, to_lens ? above : 0},
+       to_lens ? below : below + above, to_lens ? above : 0, ray->medium},
       Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
 
@@ -251,9 +254,11 @@ void BidirectionalWave::connect_to_lens(int s, int block) {
     const Light light{sample, false, a.survival[i], s == 1 ? 1. : 0., projection->raster};
     const double own = technique.own[i];
     const double share = projection->importance * G * mis_weight(own, below);
-    const Waiting waiting{a.value.get(i, lanes()) * share, a.dispersed[i], below / own, 0};
+    const bool infinite = technique.near[i] == 0;
+    const Waiting waiting{a.value.get(i, lanes()) * share, a.dispersed[i], below / own, 0,
+                          infinite ? camera.surroundings() : a.medium[i]};
     const Vec3 entrance = camera.entrance(lens, -w);
-    if (technique.near[i] == 0) {
+    if (infinite) {
       wait_for_shadow(light, waiting, Vec3f(entrance), Vec3f(-w), endless);
       continue;
     }
@@ -269,31 +274,6 @@ void BidirectionalWave::connect_to_lens(int s, int block) {
 /// Makes room for eight more shadow rays.
 inline void BidirectionalWave::make_room_for_shadows(RayCounts& rays) {
   if (shadows_.count() + JointLanes::size > wave_size) find_shadows(rays);
-}
-
-void BidirectionalWave::find_shadows(RayCounts& rays) {
-  rays.count_occluded(shadows_.count());
-  shadows_.trace(
-      scene_->accel(), [&](int light) { return time(lights_found_[light].sample); },
-      [&](int shadow, const Color&, double) { take(shadows_.path(shadow)); },
-      [&](int shadow) { pass(shadow); });
-  waiting_.clear();
-}
-
-/// Takes light through surfaces, which change its weight, too, since a walk may stop there.
-void BidirectionalWave::pass(int shadow) {
-  const int found = shadows_.path(shadow);
-  Light& light = lights_found_[found];
-  Ray ray = shadows_.ray(shadow, time(light.sample));
-  ray.wavelength = wavelength_[light.sample];
-  const Passage seen = scene_->passage(ray);
-  if (seen.is_blocked()) return;
-  const auto& [weighted, dispersed, scaled, fixed] = waiting_[shadow];
-  const double mis = mis_weight(1, beta_.over(scaled, seen.probability), fixed);
-  light.weighted = recorded(weighted * seen.transmittance * (mis / mis_weight(1, scaled, fixed)),
-                            ray.wavelength, dispersed);
-  light.certainty *= seen.probability;
-  take(found);
 }
 
 }  // namespace mlt

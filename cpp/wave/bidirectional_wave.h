@@ -27,8 +27,8 @@ class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
 
-  /// Whether the scene has no media, and the settings ask for waves, for next-event estimation, for
-  /// no manifold samples and for a heuristic with an exponent.
+  /// Whether all media of the scene are grey, and the settings ask for waves, for next-event
+  /// estimation, for no manifold samples and for a heuristic with an exponent.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
   /// A wave, or nullptr where it does not support that.
   static std::unique_ptr<BidirectionalWave> where_supported(
@@ -84,18 +84,23 @@ class BidirectionalWave {
     uint32_t emitter = 0;
     int next = -1;  ///< The sample's next light; -1: there is none.
   };
-  /// Light on a shadow ray, as if there were no surfaces that it may have to pass. The sums are
-  /// those of SubpathWave::Hit.
+  /// Light on a shadow ray, as if there were no media and surfaces that it may have to pass. The
+  /// sums are those of SubpathWave::Hit.
   struct Waiting {
     Spectrum weighted;  ///< f w / p.
     bool dispersed;
     double scaled, fixed;
+    MediumIndex medium;  ///< In which the ray starts.
   };
   template <class T>
   using Samples = SubpathWave::Samples<T>;
   static constexpr int blocks = capacity / JointLanes::size;
   int block_count() const { return whole_vectors(size()) / JointLanes::size; }
 
+  /// The light if it is an emissive mesh all of whose rays start in its surroundings.
+  const MeshLight& mesh_light(uint32_t index) const {
+    return scene_->starts_in_surroundings(index) ? scene_->mesh_light(index) : other_light_;
+  }
   void start_samples();
   void draw_lens();
   void walk_from_camera(RayCounts& rays);
@@ -123,7 +128,7 @@ class BidirectionalWave {
   void make_room_for_shadows(RayCounts& rays);
   [[gnu::always_inline]] void wait_for_shadow(const Light& light, const Waiting& waiting,
                                               const Vec3f& o, const Vec3f& w, float length);
-  void pass(int shadow);
+  void pass(int shadow, bool surfaces);
   const SingleWalkVertex& lens(int sample) const { return lenses_[one_lens_ ? 0 : sample]; }
   double time(int sample) const { return lens(sample).x.vertex.at.time; }
   const JointLanes& light_joints(int s, int block) const {
@@ -141,6 +146,7 @@ class BidirectionalWave {
   MisExponent beta_;
   bool one_lens_;  ///< Whether all samples have the same position on the lens, and the same time.
   std::vector<SingleWalkVertex> lenses_;
+  MeshLight other_light_;  ///< Stands for lights that are no such mesh.
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.

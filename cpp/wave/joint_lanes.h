@@ -35,8 +35,9 @@ struct JointLanes {
   Lanes<double, size> forward;  ///< Density of the vertex, made by its walk.
   /// Sum of r_i^beta over the techniques with a joint before the vertex or at it (TechniqueSums).
   Lanes<double, size> sums;
-  Lanes<double, size> survival;  ///< Probability that its walk has survived Russian roulette.
-  Lanes<bool, size> dispersed;   ///< Whether a vertex before it disperses.
+  Lanes<double, size> survival;     ///< Probability that its walk has survived Russian roulette.
+  Lanes<bool, size> dispersed;      ///< Whether a vertex before it disperses.
+  Lanes<MediumIndex, size> medium;  ///< In which rays leave it.
   Lanes<const SingleWalkVertex*, size>
       single;  ///< nullptr: it is Lambertian, or on an emissive mesh.
 };
@@ -76,10 +77,15 @@ inline const WalkVertex& single_vertex(const JointLanes& lanes, int i, PointKind
   return scratch;
 }
 
-/// The probability that a walk along w, which has come to the vertex, stops there. Light passes
-/// neither Lambertian meshes nor emissive ones, and points at infinity are no surfaces.
-inline double stop_probability(const Scene& scene, const JointLanes& lanes, int i, const Vec3& w) {
-  return lanes.single[i] ? scene.stop_probability(lanes.single[i]->x.vertex.at, w) : 1;
+/// The arrival at the vertex of a walk along w, without what lies on the way. Light passes neither
+/// Lambertian meshes nor emissive ones, and points at infinity are no surfaces.
+inline Arrival arrival(const Scene& scene, const JointLanes& lanes, int i, const Vec3& w) {
+  return lanes.single[i] ? scene.arrival({}, lanes.single[i]->x.vertex.at, w) : Arrival();
+}
+/// The medium in which a ray leaves the vertex along w.
+inline MediumIndex medium_towards(const Scene& scene, const JointLanes& lanes, int i,
+                                  const Vec3& w) {
+  return lanes.single[i] ? scene.medium_towards(lanes.single[i]->x.vertex.at, w) : lanes.medium[i];
 }
 
 /// Shadow rays between the vertices of a joint.

@@ -52,19 +52,16 @@ void BasicPathWave<Numbers>::begin_vertices(bool last) {
 /// Follows the rays on that go through something.
 template <class Numbers>
 void BasicPathWave<Numbers>::follow_legs(RayCounts& rays) {
-  legs_.clear();
-  for (int place = 0; place < live_; ++place) {
-    leg_at_[place] = -1;
-    const Hit hit = hits(place);
-    const MediumIndex medium = walks_[path_[place]].ray.medium;
-    const bool meets = hit.shape != SurfacePoint::no_shape;
-    if (medium == no_medium && !(meets && scene_->has_passage(hit.shape))) continue;
-    const WaveWalk& walk = exact_walk(place);
-    leg_at_[place] = static_cast<int>(legs_.all().size());
-    WaveLeg& leg = legs_.add({walk.ray, hit, numbers_.read(leg_, place), {}, {}});
-    leg.passed.likelihood = walk.likelihood;
-  }
-  legs_.follow(*scene_, rays);
+  legs_.follow(
+      *scene_, live_, [&](int place) { return hits(place); },
+      [&](int place) { return walks_[path_[place]].ray.medium; },
+      [&](int place, WaveLeg& leg) {
+        const WaveWalk& walk = exact_walk(place);
+        leg.ray = walk.ray;
+        leg.u = numbers_.read(leg_, place);
+        leg.passed.likelihood = walk.likelihood;
+      },
+      rays);
 }
 
 /// Takes what has been passed on the leg to its end: `at`, or (nullptr) nowhere or on a surface

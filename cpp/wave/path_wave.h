@@ -178,8 +178,8 @@ class BasicPathWave {
   WaveWalk& exact_walk(int place);
   WaveWalk& walk(int i) { return walks_[path_[begin_ + i]]; }
   Hit hits(int place) const { return hits_[place / RayPacket::size].hit(place % RayPacket::size); }
-  bool passes_something(int place) const { return scene_->has_passages() && leg_at_[place] >= 0; }
-  const WaveLeg& leg(int place) const { return legs_.all()[leg_at_[place]]; }
+  bool passes_something(int place) const { return scene_->has_passages() && legs_.of(place); }
+  const WaveLeg& leg(int place) const { return *legs_.of(place); }
 
   const Scene* scene_;
   PathRules rules_;
@@ -198,8 +198,7 @@ class BasicPathWave {
   Wave<int> path_;    ///< Its index in walks_.
   VectorWave o_, d_;  ///< Its ray.
   Wave<bool> exact_;  ///< Whether its walk has the ray in double precision.
-  WaveLegs legs_;     ///< Legs on which something is passed,
-  Wave<int> leg_at_;  ///< and which of them is its own; -1: none.
+  WaveLegs legs_;     ///< The legs on which something is passed.
   PacketHits hits_[wave_size / RayPacket::size];
   Numbers numbers_;
   typename Numbers::Place leg_;  ///< The places of the numbers of this step.

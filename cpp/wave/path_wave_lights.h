@@ -225,8 +225,7 @@ void BasicPathWave<Numbers>::receive_through(int shadow, bool passes_surfaces) {
   Ray ray = shadows_.ray(shadow, walk.ray.time);
   ray.wavelength = walk.ray.wavelength;
   ray.medium = to_pass.medium;
-  Passage seen = passes_surfaces ? scene_->pass_surfaces(ray) : Passage();
-  if (ray.medium != no_medium) fly(scene_->media()[ray.medium], ray, ray.before + ray.t_max, seen);
+  const Passage seen = scene_->pass(ray, passes_surfaces);
   if (seen.is_blocked()) return;
   const double goes = seen.probability * mean(to_pass.likelihood * seen.flight * to_pass.stops);
   const double mis = mis_weight(1, (1 / to_pass.mis - 1) * walk.mis.raise(goes));

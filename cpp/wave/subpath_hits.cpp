@@ -1,11 +1,61 @@
-// What the walks of a wave meet beside Lambertian surfaces: lights, the lens, single vertices.
+// What the walks of a wave meet: vertices in lanes and single ones, lights, the lens.
 #include "wave/subpath_wave.h"
 
 namespace mlt {
 
 void SubpathWave::find_surface_point(int walk, SurfacePoint& at) {
-  const PacketHits& found = found_[walk / RayPacket::size];
-  scene_->find_surface_point(exact_ray(walk), found.hit(walk % RayPacket::size), at);
+  const Ray& ray = exact_ray(walk);
+  if (const WaveLeg* leg = this->leg(walk))
+    scene_->find_surface_point(leg->ray, leg->hit, at);
+  else
+    scene_->find_surface_point(ray, hit(walk), at);
+}
+
+void SubpathWave::find_vertices(int place) {
+  for (int i = 0; i < count_; ++i) find_vertex(i, place);
+}
+
+/// Whether vertices on a Lambertian mesh are computed together. Rays from boundaries may go into
+/// two media; behind panes, where there are no media, double precision is kept.
+inline bool SubpathWave::is_in_lanes(uint32_t shape, const WaveLeg* leg) const {
+  return scene_->has_media() ? !scene_->media().is_boundary(shape) : !leg;
+}
+
+inline void SubpathWave::find_vertex(int i, int place) {
+  const int walk = begin_ + i;
+  lambertian_.f[i] = nullptr;
+  single_[i] = nullptr;
+  if (const WaveLeg* leg = this->leg(walk))
+    find_behind(i, place, *leg);
+  else
+    find_on_surface(i, place, hit(walk), nullptr);
+}
+
+/// Finds the vertex at the end of a leg.
+void SubpathWave::find_behind(int i, int place, const WaveLeg& leg) {
+  if (leg.in_medium())
+    find_in_medium(i, place, leg);
+  else
+    find_on_surface(i, place, leg.hit, &leg);
+}
+
+/// Finds the vertex where a ray has hit a surface, or none.
+inline void SubpathWave::find_on_surface(int i, int place, const mlt::Hit& hit,
+                                         const WaveLeg* leg) {
+  const int walk = begin_ + i;
+  if (hit.shape == SurfacePoint::no_shape) {
+    if (pass(i, place, nullptr)) leave_scene(walk, place);
+    return;
+  }
+  const LaneMesh& shape = scene_->lane_mesh(hit.shape);
+  if (!(shape.lambertian && is_in_lanes(hit.shape, leg))) return find_other(i, place);
+  if (!pass(i, place, nullptr)) return;
+  if (shape.emits && !from_light_) {
+    SurfacePoint at;
+    find_surface_point(walk, at);
+    find_light(walk, place, at);
+  }
+  lambertian_.set(i, shape, hit.primitive, hit.u, hit.v, wavelength_[sample_[walk]]);
 }
 
 void SubpathWave::leave_scene(int walk, int place) {
@@ -21,43 +71,27 @@ void SubpathWave::find_light(int walk, int place, const SurfacePoint& at) {
   if (const Emitter* emitter = scene_->emitter(at)) hit_light(*emitter, walk, place, at);
 }
 
-/// Finds a vertex that is not Lambertian, or is behind a surface that the walk passes.
-void SubpathWave::find_other(int i, int place, RayCounts& rays) {
-  const int walk = begin_ + i;
+/// Finds a vertex that is not a Lambertian one on a mesh.
+void SubpathWave::find_other(int i, int place) {
   SurfacePoint at;
-  find_surface_point(walk, at);
-  Spectrum passed(1);
-  if (scene_->bsdf(at).has_passage() && !go_through(walk, place, at, passed, rays)) return;
-  find_light(walk, place, at);
+  find_surface_point(begin_ + i, at);
+  if (!pass(i, place, &at)) return;
+  find_light(begin_ + i, place, at);
+  add_single(i, at);
+}
+
+/// Adds a vertex that is computed alone.
+void SubpathWave::add_single(int i, const SurfacePoint& at) {
+  const int walk = begin_ + i;
   single_[i] = &(BsdfAt(*scene_, at).has_smooth() ? singles_ : passed_).add();
   WalkVertex& x = single_[i]->x;
   x.vertex.at = at;
   x.towards_previous = -ray_[walk].d;
-  x.passed = passed;
+  if (scene_->has_passages()) x.passed = transmitted_[i];
   x.throughput = throughput_[walk];
   x.survival = survival_[walk];
   x.dispersed = dispersed_[walk];
   lambertian_.set_position(i, at);
-}
-
-/// Follows a walk on from a surface that light passes, and takes what it passes (Subpath::pass);
-/// false if it does not stop in the scene.
-bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, Spectrum& passed,
-                             RayCounts& rays) {
-  const Ray& ray = exact_ray(walk);
-  Passage leg;
-  const double u = numbers_.read(leg_, walk);
-  const bool hit = Walker{*scene_, ray.time, rays}.go_on(ray, u, true, at, leg);
-  if (leg.is_blocked()) return false;
-  if (!hit) at = Scene::point_at_infinity(ray.d, ray.wavelength);
-  const double passes = scene_->arrival(leg, at, ray.d).probability();
-  passed = leg.transmittance / passes;
-  throughput_[walk] *= passed;
-  pdf_[walk] *= static_cast<float>(passes);
-  if (from_light_ || place > 1) stops_back_[walk] *= leg.probability;
-  if (!from_light_) certainty_[walk] *= passes;
-  if (!hit) leave_scene(walk, place);
-  return hit;
 }
 
 /// How often next-event estimation at a point counts as technique s = 1 with x_0 where the walk has

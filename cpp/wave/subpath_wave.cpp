@@ -37,11 +37,13 @@ inline void SubpathWave::set(int walk, const Step& step) {
   dispersed_[walk] = step.dispersed;
   near_[walk] = 1;
   stops_back_[walk] = 1;
+  medium_[walk] = step.medium;
   exact_[walk] = false;
 }
 
 inline void SubpathWave::set(int walk, const Ray& ray) {
   ray_[walk] = ray;
+  medium_[walk] = ray.medium;
   exact_[walk] = true;
 }
 
@@ -71,7 +73,7 @@ void SubpathWave::start(const Step& first, const Ray& ray, const SingleWalkVerte
   start(first, ray.time, ray.wavelength);
   set(live_, ray);
   near_[live_] = light.x.vertex.at.infinite() ? 0 : 1;
-  stops_back_[live_] = scene_->stop_probability(light.x.vertex.at, -ray.d);
+  set_back(live_, light.x.vertex.at);
   single_light_[live_] = &light;
   if (meets_lens_) hit_lens(live_, 0);
   ++live_;
@@ -82,6 +84,8 @@ const Ray& SubpathWave::exact_ray(int walk) {
   if (!exact_[walk]) {
     ray = {Vec3(o_[walk]), Vec3(d_[walk]), time_[sample_[walk]]};
     ray.wavelength = wavelength_[sample_[walk]];
+    ray.medium = medium_[walk];
+    if (ray.medium != no_medium) ray.before = dot(ray.o - previous_[walk], ray.d);
   }
   exact_[walk] = true;
   return ray;
@@ -96,6 +100,7 @@ void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
     next_ = 0;
     if (scene_->has_passages()) leg_ = numbers_.places().next();
     at_ = decltype(at_)::draw(numbers_.places());
+    if (scene_->has_passages()) follow_legs(rays);
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
       shade(place, place + 1 < most || meets_lens_, rays);
@@ -123,13 +128,14 @@ void SubpathWave::shade(int place, bool goes_on, RayCounts& rays) {
   if (goes_on)
     numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
   passed_.clear();
-  for (int i = 0; i < count_; ++i) find_vertex(i, place, rays);
+  find_vertices(place);
   lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
   if (goes_on) lambertian_.sample_directions(count_, rules_.strict_normals);
   find_techniques(place);
   arrive();
+  if (scene_->has_media()) arrive_alone();
   for (int i = 0; i < count_; ++i) {
     if (cosine_to_previous_[i] == 0) continue;
     if (lambertian_.f[i])
@@ -138,24 +144,6 @@ void SubpathWave::shade(int place, bool goes_on, RayCounts& rays) {
       keep_other(i, place);
   }
   if (goes_on) take_steps(place, rays);
-}
-
-inline void SubpathWave::find_vertex(int i, int place, RayCounts& rays) {
-  const int walk = begin_ + i, lane = walk % RayPacket::size;
-  const PacketHits& found = found_[walk / RayPacket::size];
-  const uint32_t index = found.shape[lane];
-  lambertian_.f[i] = nullptr;
-  single_[i] = nullptr;
-  if (index == SurfacePoint::no_shape) return leave_scene(walk, place);
-  const LaneMesh& shape = scene_->lane_mesh(index);
-  if (!shape.lambertian) return find_other(i, place, rays);
-  if (shape.emits && !from_light_) {
-    SurfacePoint at;
-    find_surface_point(walk, at);
-    find_light(walk, place, at);
-  }
-  lambertian_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane],
-                  wavelength_[sample_[walk]]);
 }
 
 /// Finds how often the technique with its joint before the vertex counts (TechniqueSums), if a path
@@ -215,6 +203,7 @@ inline void SubpathWave::keep_lambertian(int i, int place) {
   x.n.set(lane, lambertian_.n[i]);
   x.extent[lane] = lambertian_.surface.extent[i];
   x.sums[lane] = sums_here_[i];
+  x.medium[lane] = medium_[begin_ + i];
   x.value.set(lane, throughput_[begin_ + i] * *lambertian_.f[i] *
                         (from_light_ ? double{light_factor_[i]} : 1.0));
 }
@@ -253,13 +242,14 @@ inline void SubpathWave::scatter_lambertian(int i, int place) {
   if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*lambertian_.f[i])) return;
   Spectrum ratio = *lambertian_.f[i] * pi;
   if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
-  const double survival = survive(i, place, max_component(ratio));
+  const double survival =
+      survive(i, place, max_component(scene_->has_passages() ? transmitted_[i] * ratio : ratio));
   if (survival == 0) return;
   numbers_.move(next_, k);
   set(next_++,
       {sample_[k], Vec3(lambertian_.p[i]), lambertian_.o[i], lambertian_.w[i], next_cosine_[i], pdf,
        forward_here_[i], sums_here_[i], throughput_[k] * (ratio / survival),
-       survival_[k] * survival, 0, false, dispersed_[k]});
+       survival_[k] * survival, 0, false, dispersed_[k], medium_[k]});
 }
 
 void SubpathWave::scatter_other(int i, int place, RayCounts& rays) {
@@ -282,7 +272,7 @@ void SubpathWave::scatter_other(int i, int place, RayCounts& rays) {
               single_[i]->walk_sums(beta_, *back), x.next_throughput, x.next_survival,
               delta ? certainty_[k] * chance : 0, delta, x.next_dispersed});
   set(next_, ray);
-  if (scene_->has_passages()) stops_back_[next_] = scene_->stop_probability(x.vertex.at, -ray.d);
+  if (scene_->has_passages()) set_back(next_, x.vertex.at);
   ++next_;
 }
 

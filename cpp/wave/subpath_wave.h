@@ -7,6 +7,7 @@
 #include "path/subpath.h"
 #include "wave/joint_lanes.h"
 #include "wave/wave_hits.h"
+#include "wave/wave_legs.h"
 #include "wave/wave_numbers.h"
 
 namespace mlt {
@@ -50,6 +51,7 @@ class SubpathWave {
     double survival = 1, certainty = 1;  ///< See Connection.
     bool delta = false;                  ///< Whether the vertex scatters by a delta lobe.
     bool dispersed = false;              ///< Whether a vertex so far disperses.
+    MediumIndex medium = no_medium;      ///< In which its ray starts.
   };
   /// A walk begins with a step from the lens,
   void start(const Step& first, const Ray& ray);
@@ -73,13 +75,26 @@ class SubpathWave {
 
   void open(int place);
   void find_hits(bool coherent, RayCounts& rays);
+  void follow_legs(RayCounts& rays);
 
   // Functions of the `count_` walks from the begin_-th one on:
   void shade(int place, bool goes_on, RayCounts& rays);
-  void find_vertex(int i, int place, RayCounts& rays);
-  void find_other(int i, int place, RayCounts& rays);
+  void find_vertices(int place);
+  void find_vertex(int i, int place);
+  bool is_in_lanes(uint32_t shape, const WaveLeg* leg) const;
+  void find_behind(int i, int place, const WaveLeg& leg);
+  [[gnu::always_inline]] void find_on_surface(int i, int place, const mlt::Hit& hit,
+                                              const WaveLeg* leg);
+  void find_other(int i, int place);
+  void find_in_medium(int i, int place, const WaveLeg& leg);
+  void add_single(int i, const SurfacePoint& at);
+  bool pass(int i, int place, const SurfacePoint* at) {
+    return !scene_->has_passages() || pass_leg(i, place, at);
+  }
+  bool pass_leg(int i, int place, const SurfacePoint* at);
   void find_techniques(int place);
   void arrive();
+  void arrive_alone();
   void keep_lambertian(int i, int place);
   void keep_other(int i, int place);
   JointLanes& joint(int i, int place, int lane);
@@ -92,7 +107,7 @@ class SubpathWave {
   void start(const Step& first, double time, double wavelength);
   void set(int walk, const Step& step);
   void set(int walk, const Ray& ray);
-  bool go_through(int walk, int place, SurfacePoint& at, Spectrum& passed, RayCounts& rays);
+  void set_back(int walk, const SurfacePoint& from);
   void leave_scene(int walk, int place);
   void find_light(int walk, int place, const SurfacePoint& at);
   void hit_light(const Emitter& emitter, int walk, int place, const SurfacePoint& at);
@@ -105,6 +120,11 @@ class SubpathWave {
   /// Its ray in double precision.
   const Ray& exact_ray(int walk);
   void find_surface_point(int walk, SurfacePoint& at);
+  mlt::Hit hit(int walk) const {
+    return found_[walk / RayPacket::size].hit(walk % RayPacket::size);
+  }
+  /// The way to its next vertex; nullptr: it passes nothing there.
+  const WaveLeg* leg(int walk) const { return scene_->has_passages() ? legs_.of(walk) : nullptr; }
   /// |p - q|^2 for its last vertex q; 1 if that is at infinity.
   double distance2(int walk, const Vec3& p) const {
     return near_[walk] == 0 ? 1 : length_squared(p - previous_[walk]);
@@ -139,9 +159,10 @@ class SubpathWave {
   Samples<double> forward_, sums_, survival_, certainty_;
   Samples<Spectrum> throughput_;
   Samples<bool> delta_, dispersed_;
-  Samples<float> near_;  ///< 0 if its last vertex is at infinity, else 1.
-  /// The probability that a walk from the other end stops at its last vertex, if it comes that way.
-  Samples<double> stops_back_;
+  Samples<float> near_;         ///< 0 if its last vertex is at infinity, else 1.
+  Samples<double> stops_back_;  ///< See WalkVertex::passes_back, of its last vertex.
+  Samples<MediumIndex> medium_;
+  WaveLegs legs_;     ///< The legs on which something is passed.
   Samples<Ray> ray_;  ///< See exact_ray(); not known unless `exact_`.
   Samples<bool> exact_;
   PacketHits found_[capacity / RayPacket::size];
@@ -159,8 +180,9 @@ class SubpathWave {
   Block<float> next_cosine_;         ///< |w.ng| of the sampled direction.
   Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.
   Block<double> forward_here_, sums_here_;
-  Block<double> G_;          ///< Between the vertex and the previous one.
-  Block<double> technique_;  ///< How often the technique with its joint before counts.
+  Block<Spectrum> transmitted_;  ///< See WalkVertex::passed; where there are passages.
+  Block<double> G_;              ///< Between the vertex and the previous one.
+  Block<double> technique_;      ///< How often the technique with its joint before counts.
 };
 
 }  // namespace mlt

@@ -23,7 +23,7 @@ bool passes(const Scene& scene, WaveLeg& leg) {
 
 }  // namespace
 
-void WaveLegs::follow(const Scene& scene, RayCounts& rays) {
+void WaveLegs::follow_all(const Scene& scene, RayCounts& rays) {
   going_on_.clear();
   for (WaveLeg& leg : legs_)
     if (passes(scene, leg)) going_on_.push_back(&leg);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -66,14 +67,14 @@ inline std::set<std::string> media_scene_names() {
 inline std::set<std::string> spectral_scene_names() {
   return {"spectral_room", "prism", "frosted_prism", "spectral_fog", "prism_beam"};
 }
-/// Those without media, as BidirectionalWave requires, and one of many lights.
-inline std::vector<std::string> clear_scene_names() {
+/// Those in which all media are grey, as BidirectionalWave requires, and one of many lights.
+inline std::vector<std::string> grey_scene_names() {
   std::vector<std::string> names = scene_names();
   const auto is_left_out = [](const std::string& name) {
     return media_scene_names().count(name) > 0;
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
-  names.push_back("lamps");
+  for (const char* name : {"volume_caustic", "solids", "lamps"}) names.push_back(name);
   return names;
 }
 
@@ -134,6 +135,22 @@ inline TestScene with_pane_first(const std::string& name, bool reversed = false)
       warnings);
   parts.insert(parts.begin(), pane.children.front());
   EXPECT_TRUE(warnings.empty()) << warnings.front();
+  return {name, without_warnings(build_scene(tree, plugins(), {}))};
+}
+
+/// A test scene with the red extinction of its media in all channels.
+inline TestScene with_grey_media(const std::string& name) {
+  std::vector<std::string> warnings;
+  Node tree = read_xml_file("tests/scenes/" + name + ".xml", {}, warnings);
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+  const std::function<void(Node&)> make_grey = [&](Node& node) {
+    for (Node& child : node.children) make_grey(child);
+    if (node.family != "medium") return;
+    for (auto& [parameter, value, where] : node.properties)
+      if (Triple* rgb = std::get_if<Triple>(&value); rgb && parameter.rfind("sigma", 0) == 0)
+        rgb->fill(rgb->front());
+  };
+  make_grey(tree);
   return {name, without_warnings(build_scene(tree, plugins(), {}))};
 }
 
