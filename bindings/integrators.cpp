@@ -52,10 +52,10 @@ void bind_integrators(py::module_& m) {
   m.def("integrator_from_dict", &integrator_from_dict, py::arg("dict"));
   m.def(
       "with_light_layers",
-      [](const MadeIntegrator& made, bool groups, const Assignments& classes) {
-        return with_light_layers(made, {groups, classes}, plugins());
+      [](const MadeIntegrator& made, bool groups, const Assignments& classes, bool exposures) {
+        return with_light_layers(made, {groups, classes, exposures}, plugins());
       },
-      py::arg("integrator"), py::arg("groups"), py::arg("classes"),
+      py::arg("integrator"), py::arg("groups"), py::arg("classes"), py::arg("exposures") = false,
       "It again, keeping layers of light.");
   m.def("with_mutations", &with_python_mutations, py::arg("integrator"), py::arg("scene"),
         py::arg("mutations"));

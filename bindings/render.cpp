@@ -93,13 +93,16 @@ std::optional<double> known(double error) {
   return std::isnan(error) ? std::nullopt : std::optional(error);
 }
 
-std::optional<double> relative_error(const PyJob& job) {
-  return known(without_gil([&] { return job.error()->relative.value; }));
+std::optional<double> relative_error(const PyJob& job, int layer) {
+  return known(without_gil([&] {
+    return (layer < 0 ? *job.error() : estimate_error(job.rendering(), layer)).relative.value;
+  }));
 }
 
-std::optional<double> flicker(const PyJob& job, const PyJob& before) {
-  return known(
-      without_gil([&] { return error_of_change(before.rendering(), job.rendering()).value; }));
+std::optional<double> flicker(const PyJob& job, const PyJob& before, int layer, int layer_before) {
+  return known(without_gil([&] {
+    return error_of_change({&before.rendering(), layer_before}, {&job.rendering(), layer}).value;
+  }));
 }
 
 py::dict by_name(std::vector<NamedImage> images) {
@@ -184,11 +187,12 @@ void bind_render(py::module_& m) {
       .def("halves", &halves,
            "Two halves of the image so far that share no group, each as (image, image without "
            "fireflies); None while there are fewer than four groups.")
-      .def("relative_error", &relative_error,
-           "The relative error so far, or None if nothing is known.")
-      .def("flicker", &flicker, py::arg("before"),
+      .def("relative_error", &relative_error, py::arg("layer") = Rendering::all_light,
+           "The relative error so far, of a layer of light if asked, or None if nothing is known.")
+      .def("flicker", &flicker, py::arg("before"), py::arg("layer") = Rendering::all_light,
+           py::arg("layer_before") = Rendering::all_light,
            "After the end of both: the relative error of the change from the image of another job, "
-           "or None if nothing is known.")
+           "or None if nothing is known; of layers of light, if asked.")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def("light", &light, "The light of each lamp so far, by the names of these layers.")
       .def_property_readonly("light_groups", &light_groups)

@@ -22,7 +22,8 @@ enum class Purpose : uint64_t {
   allocation,
   sample,
   certain_light,
-  manifold
+  manifold,
+  exposures
 };
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.

@@ -46,6 +46,10 @@ std::vector<Parameter> light_parameters() {
       {"light_groups", ParamType::boolean, false,
        "Keep the light of each lamp as a layer: `light.` with its id. They add up to the image, "
        "and each has a layer of its error, such as `error.light.lamp`."},
+      {"exposure_layers", ParamType::boolean, false,
+       "Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`, with "
+       "a "
+       "layer of its error. They add up to the image."},
       {"light_layers", ParamType::text, std::string(),
        "Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with "
        "regular expressions over the letters of a path from the light to the eye: L, S for each "
@@ -56,6 +60,7 @@ std::vector<Parameter> light_parameters() {
 LightLayerSettings light_layers(Params& params) {
   LightLayerSettings settings;
   settings.groups = params.boolean("light_groups");
+  settings.exposures = params.boolean("exposure_layers");
   std::istringstream given(params.text("light_layers"));
   for (std::string text; given >> text;) {
     const size_t equals = text.find('=');

@@ -84,11 +84,12 @@ GroupImage difference(const GroupImage& from, GroupImage to) {
 
 /// The groups of a rendering; with `before`, how they differ from those of that one.
 struct GroupsOfRendering {
-  GroupsOfRendering(const Rendering& rendering, int layer, const Rendering* before = nullptr) {
+  GroupsOfRendering(const Rendering& rendering, int layer,
+                    const std::optional<ImageOf>& before = std::nullopt) {
     BlocksOfSequence sequence;
     for (int g = 0; g < Rendering::group_count; ++g) {
       GroupImage group = rendering.group(g, layer);
-      if (before) group = difference(before->group(g, layer), std::move(group));
+      if (before) group = difference(before->rendering->group(g, before->layer), std::move(group));
       if (group.weight == 0) continue;
       size = Vec2i(group.image.width, group.image.height);
       grid = block_grid(group.image);
@@ -184,13 +185,16 @@ class Total {
 };
 
 /// The groups of a rendering and of its parts, or how they differ from those of another one.
-std::vector<GroupsOfRendering> all_groups(const Rendering& rendering, int layer,
-                                          const Rendering* before = nullptr) {
+std::vector<GroupsOfRendering> all_groups(const ImageOf& image,
+                                          const std::optional<ImageOf>& before = std::nullopt) {
+  const auto part = [](const ImageOf& of, size_t i) {
+    return ImageOf{of.rendering->parts()[i], of.layer};
+  };
   std::vector<GroupsOfRendering> all;
-  all.emplace_back(rendering, layer, before);
-  const auto parts = rendering.parts();
-  for (size_t i = 0; i < parts.size(); ++i)
-    all.emplace_back(*parts[i], layer, before ? before->parts()[i] : nullptr);
+  all.emplace_back(*image.rendering, image.layer, before);
+  for (size_t i = 0; i < image.rendering->parts().size(); ++i)
+    all.emplace_back(*part(image, i).rendering, image.layer,
+                     before ? std::optional(part(*before, i)) : std::nullopt);
   return all;
 }
 
@@ -233,7 +237,7 @@ void count_pixels(const Image& image, ErrorEstimate& estimate) {
 }  // namespace
 
 ErrorEstimate estimate_error(const Rendering& rendering, int layer) {
-  const std::vector<GroupsOfRendering> all = all_groups(rendering, layer);
+  const std::vector<GroupsOfRendering> all = all_groups({&rendering, layer});
   const GroupsOfRendering& groups = all[0];
   ErrorEstimate estimate;
   count_pixels(rendering.image(layer), estimate);
@@ -255,14 +259,14 @@ ErrorEstimate estimate_error(const Rendering& rendering, int layer) {
   return estimate;
 }
 
-RelativeError error_of_change(const Rendering& before, const Rendering& after) {
-  const std::vector<GroupsOfRendering> seen = all_groups(after, Rendering::all_light),
-                                       changes = all_groups(after, Rendering::all_light, &before);
+RelativeError error_of_change(const ImageOf& before, const ImageOf& after) {
+  const std::vector<GroupsOfRendering> seen = all_groups(after),
+                                       changes = all_groups(after, before);
   if (!are_known(changes)) return {};
   Total pixels(pixels_of(seen));
   pixels.take_errors(pixels_of(changes));
-  for (const Rendering* one : {&before, &after})
-    if (const Image common = one->common_error(); !common.empty())
+  for (const ImageOf& one : {before, after})
+    if (const Image common = one.rendering->common_error(one.layer); !common.empty())
       pixels.add_error(with_luminance(common));
   return pixels.relative();
 }

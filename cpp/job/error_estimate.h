@@ -8,6 +8,7 @@
 #include "rendering/integrator.h"
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace mlt {
@@ -47,11 +48,17 @@ struct ErrorEstimate {
 /// as much as developing the image once for each.
 ErrorEstimate estimate_error(const Rendering& rendering, int layer = Rendering::all_light);
 
+/// An image of a rendering: that of all its light, or of one of its layers.
+struct ImageOf {
+  const Rendering* rendering;
+  int layer = Rendering::all_light;
+};
+
 /// The error of the change from one image to another of the same size, relative to the second one,
 /// by renderings with the same algorithm: from group to group, so that what both have in common by
 /// their random numbers counts for nothing. The errors that are common to all groups count as if
 /// they were independent.
-RelativeError error_of_change(const Rendering& before, const Rendering& after);
+RelativeError error_of_change(const ImageOf& before, const ImageOf& after);
 
 /// The estimate as layers of the image: "error" for pixels and "error_block", where each pixel has
 /// the error of its block. None if nothing is known.

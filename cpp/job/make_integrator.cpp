@@ -98,6 +98,7 @@ MadeIntegrator with_light_layers(const MadeIntegrator& made, const LightLayerSet
     throw UsageError("'" + schema.name + "' keeps no layers of light; those that do are " +
                      those_with(registry, "light_groups"));
   if (layers.groups) assign(node, "light_groups", "true", schema);
+  if (layers.exposures) assign(node, "exposure_layers", "true", schema);
   if (!layers.classes.empty()) assign(node, "light_layers", layers.text(), schema);
   MadeIntegrator layered = make_integrator(node, registry);
   layered.aovs = made.aovs;

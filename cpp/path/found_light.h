@@ -14,7 +14,7 @@ struct ImageLight {
   Vec2 raster{0};
   Color rgb{0};           ///< f / p, weighted among techniques.
   bool own_pixel = true;  ///< At the camera walk's own position, not by light tracing.
-  uint32_t layers = 0;    ///< Layers that it belongs to, too: a LayerMask of light_layers.h.
+  uint64_t layers = 0;    ///< Layers that it belongs to, too: a LayerMask of light_layers.h.
 };
 
 /// A number for the pair of vertices that technique (s, t) of bidirectional path tracing joins, 0

@@ -12,7 +12,8 @@ namespace {
 /// Names that are those of other layers, and beginnings of such names.
 constexpr const char *taken[] = {"alpha",   "chains",     "error", "error_block",
                                  "samples", "unfiltered", "noisy", "denoised_error"},
-                     *taken_beginnings[] = {"light.", "error.", "raw.", "weighted.", "spectrum."};
+                     *taken_beginnings[] = {"light.", "exposure.", "error.",
+                                            "raw.",   "weighted.", "spectrum."};
 
 bool is_taken(const std::string& name) {
   return std::find(std::begin(taken), std::end(taken), name) != std::end(taken) ||
@@ -66,7 +67,10 @@ void check_layers(LayerMask layers, int count) {
 }
 
 LightLayers::LightLayers(const Scene& scene, const LightLayerSettings& settings) {
+  if (settings.groups && settings.exposures)
+    throw UsageError("light_groups and exposure_layers exclude each other; choose one");
   if (settings.groups) add_groups(scene);
+  if (settings.exposures) add_exposures(scene.camera().shutter());
   for (const auto& [name, expression] : settings.classes) {
     classes_.push_back(class_expression(name, expression));
     if (std::find(names_.begin(), names_.end(), name) != names_.end())
@@ -86,10 +90,22 @@ void LightLayers::add_groups(const Scene& scene) {
   groups_ = count();
 }
 
+void LightLayers::add_exposures(const Shutter& shutter) {
+  for (int i = 1; i <= shutter.exposures; ++i) add("exposure." + std::to_string(i));
+  shutter_ = shutter;
+  groups_ = count();
+}
+
+LayerMask LightLayers::group_of(const Path& path) const {
+  if (shutter_) return LayerMask{1} << shutter_->exposure(path.time);
+  return of_emitter_.empty() ? 0 : of_emitter_[path[0].emitter];
+}
+
 void LightLayers::add(const std::string& name) {
   if (names_.size() == most)
     throw UsageError("there would be more than " + std::to_string(most) +
-                     " layers of light; give lamps the same id, or leave out light_groups");
+                     " layers of light; give lamps the same id, leave out light_groups, or have "
+                     "fewer exposures");
   names_.push_back(name);
 }
 
@@ -102,7 +118,7 @@ LayerMask LightLayers::layers_of_class(const std::string& letters) const {
 
 LayerMask LightLayers::Finder::of(const Path& path) {
   if (!layers_) return 0;
-  const LayerMask group = layers_->of_emitter_.empty() ? 0 : layers_->of_emitter_[path[0].emitter];
+  const LayerMask group = layers_->group_of(path);
   if (layers_->classes_.empty()) return group;
   const auto [known, is_new] = known_.try_emplace(path_class(path), 0);
   if (is_new) known->second = layers_->layers_of_class(known->first);

@@ -28,6 +28,20 @@ class RandomSampler {
   Rng* rng_;
 };
 
+/// The place of a sample in its sequence. Where the shutter has several exposures that are kept
+/// apart, each of them has a sample there, with the same numbers but for the time.
+struct SampleIndex {
+  SampleIndex(uint32_t place) : place(place) {}
+  SampleIndex(uint32_t place, uint16_t exposure, uint16_t exposures)
+      : place(place), exposure(exposure), exposures(exposures) {}
+
+  /// The number of the time, by that of the sequence.
+  double time(double u) const { return exposures == 1 ? u : (exposure + u) / exposures; }
+
+  uint32_t place;
+  uint16_t exposure = 0, exposures = 1;
+};
+
 /// The samples of one pixel: the first numbers and the first pairs are stratified over the pixel's
 /// samples, the others are independent. Each is computed directly from its position.
 class PixelSampler {
@@ -74,13 +88,13 @@ class PixelSampler {
     }
   };
 
-  /// `stream` names the sequence (seed, group and pixel), `index` the sample in it.
-  PixelSampler(uint64_t stream, uint32_t index)
-      : stream_(stream), key_(key_of(stream, index)), index_(index) {
+  /// `stream` names the sequence (seed, group and pixel).
+  PixelSampler(uint64_t stream, const SampleIndex& index)
+      : stream_(stream), key_(key_of(stream, index.place)), index_(index) {
     uint32_t indices[lanes];
     uint64_t seeds[lanes];
     for (uint32_t i = 0; i < lanes; ++i) {
-      indices[i] = index;
+      indices[i] = index.place;
       seeds[i] = stream + i;
     }
     scrambled_sobol<lanes>(indices, seeds, x_, y_);
@@ -89,7 +103,8 @@ class PixelSampler {
   void begin(Stream stream) { at_ = at_.begin(stream); }
   double next() {
     const Position at = at_.next();
-    return at.stratified_single() ? single(stream_, index_, at) : word(at.words);
+    if (!at.stratified_single()) return word(at.words);
+    return single(stream_, index_, at);
   }
   Vec2 next2() {
     const Position at = at_.next2();
@@ -101,12 +116,15 @@ class PixelSampler {
   static uint64_t seed_of_single(uint64_t stream, const Position& at) {
     return stream + lanes + at.singles;
   }
-  static double single(uint64_t stream, uint32_t index, const Position& at) {
-    return scrambled_radical_inverse(index, seed_of_single(stream, at));
+  static double single(uint64_t stream, const SampleIndex& index, const Position& at) {
+    const double u = scrambled_radical_inverse(index.place, seed_of_single(stream, at));
+    return is_time(at) ? index.time(u) : u;
   }
+  /// Whether a stratified number is that of the time.
+  static bool is_time(const Position& at) { return at.singles == 0; }
 
   uint64_t stream() const { return stream_; }
-  uint32_t index() const { return index_; }
+  const SampleIndex& index() const { return index_; }
   const Position& position() const { return at_; }
   /// The key of the independent numbers.
   static uint64_t key_of(uint64_t stream, uint32_t index) {
@@ -119,7 +137,7 @@ class PixelSampler {
   static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
 
   uint64_t stream_, key_;
-  uint32_t index_;
+  SampleIndex index_;
   Position at_;
   double x_[lanes], y_[lanes];  ///< The stratified pairs.
 };

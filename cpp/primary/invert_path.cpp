@@ -48,8 +48,7 @@ class PathInverter {
     write(Stream::camera, u_raster);
     LensNumbers u = LensNumbers::draw(any_);
     if (t > 0 && !camera.delta_position()) u.position = camera.invert_position(at(k));
-    if (shutter.close > shutter.open)
-      u.time = (path_.time - shutter.open) / (shutter.close - shutter.open);
+    if (shutter.opens()) u.time = shutter.number(path_.time);
     write(Stream::camera, u);
     if (camera.spectral()) write(Stream::camera, camera.invert_wavelength(path_.wavelength));
     Spectrum likelihood(1);

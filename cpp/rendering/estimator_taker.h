@@ -87,9 +87,9 @@ class EstimatorTaker : public SampleTaker {
         return SampleTaker::sample_cells(cells, streams, sink, rays);
       for_each_packet_cell(cells, [&](const Vec2i& cell) {
         wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
-        if (wave_->full()) trace_wave(sink, rays);
+        if (wave_->full()) trace_wave(streams.index.exposure, sink, rays);
       });
-      trace_wave(sink, rays);
+      trace_wave(streams.index.exposure, sink, rays);
     }
   }
 
@@ -97,21 +97,21 @@ class EstimatorTaker : public SampleTaker {
   /// Whether waves tell all that the layers of light need.
   bool can_trace_wave(SampleSink& sink) {
     const LightLayers::Finder& finder = sink.finder();
-    return finder.knows_by_emitter() && wave_->keep_emitters(finder.count() > 0);
+    return !finder.tells_classes() && wave_->keep_emitters(finder.tells_lamps());
   }
-  void trace_wave(SampleSink& sink, RayCounts& rays) {
+  void trace_wave(int exposure, SampleSink& sink, RayCounts& rays) {
     if (wave_->size() == 0) return;
     wave_->trace(rays);
-    for (int i = 0; i < wave_->size(); ++i) show(i, sink);
+    for (int i = 0; i < wave_->size(); ++i) show(i, exposure, sink);
     wave_->clear();
   }
-  void show(int i, SampleSink& sink) {
+  void show(int i, int exposure, SampleSink& sink) {
     typename Sum::Sample sample(sum_, wave_->raster(i), sink);
     if (sink.finder().count() == 0)
       wave_->show_lights(i, [&](const FoundLight& light) { sample.add(light); });
     else
       wave_->show_lights(i, [&](FoundLight light) {
-        light.layers = sink.finder().of_emitter(light.emitter);
+        light.layers = sink.finder().of(light.emitter, exposure);
         sample.add(light);
       });
     sample.finish();

@@ -19,6 +19,12 @@ namespace mlt {
 
 struct CoarseImage;
 
+/// A chain that is to advance, and the recorder of its states.
+struct ChainVisit {
+  RenderChain* chain;
+  ChainRecorder* recorder;
+};
+
 class MetropolisAlgorithm {
  public:
   virtual ~MetropolisAlgorithm() = default;

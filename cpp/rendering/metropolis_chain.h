@@ -28,6 +28,8 @@ class ChainRecorder {
   virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                       double target_over_density, LayerMask layers) = 0;
   virtual LayerMask layers_of(const Path& /*path*/) { return 0; }
+  /// Whether it keeps the exposures of the shutter apart.
+  virtual bool tells_exposures() const { return false; }
   /// Whether record() uses T / P.
   virtual bool wants_density() const { return true; }
   /// Called when a chain pauses.
@@ -49,6 +51,7 @@ class FilmRecorder : public ChainRecorder {
         group_(group),
         weights_(&weights) {}
   LayerMask layers_of(const Path& path) override { return finder_.of(path); }
+  bool tells_exposures() const override { return finder_.tells_exposures(); }
   void record(const Vec2& raster, const Color& rgb_per_target, double weight,
               double target_over_density, LayerMask layers) override {
     for (int i = 0; i < film_->splat_rows(); ++i)
@@ -90,7 +93,7 @@ class StepRecorder {
 
  public:
   /// `others` is the scratch space of the steps.
-  StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x, const Others& others)
+  StepRecorder(ChainRecorder& recorder, Kernel& kernel, const State& x, const Others& others)
       : recorder_(&recorder), kernel_(&kernel), x_(&x), others_(&others) {}
 
   /// Called by metropolis_step for each state.
@@ -120,7 +123,7 @@ class StepRecorder {
   }
 
   ChainRecorder* recorder_;
-  const Kernel* kernel_;
+  Kernel* kernel_;
   const State* x_;
   const Others* others_;
   double weight_x_ = 0;
@@ -178,12 +181,6 @@ class RenderChain {
   virtual void load(ByteReader& bytes) = 0;
 };
 
-/// A chain that is to advance, and the recorder of its states.
-struct ChainVisit {
-  RenderChain* chain;
-  ChainRecorder* recorder;
-};
-
 /// Identifies a chain by its group, and by its number in the group.
 struct ChainId {
   uint64_t seed;
@@ -191,7 +188,8 @@ struct ChainId {
   double b;  ///< Mean weight of the candidates that the chains of its group start from.
   Purpose purpose = Purpose::chain;
 
-  Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
+  Rng rng() const { return rng(purpose); }
+  Rng rng(Purpose use) const { return Rng(seed, use, (uint64_t(group) << 32) | uint32_t(number)); }
 };
 
 /// What a kernel has if it does not say otherwise.

@@ -98,7 +98,8 @@ void MetropolisRendering::lay_out_units() {
   double steps = pixels(), sampling = 0;
   if (samples_) {
     const std::vector<double> sizes = samples_->film().tile_sizes();
-    sampling = allocation_.mutations_per_sample * std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    sampling = allocation_.mutations_per_sample * samples_->exposures() *
+               std::accumulate(sizes.begin(), sizes.end(), 0.0);
     steps = sampling * (1 - allocation_.share) / allocation_.share;
   }
   const double count = static_cast<double>(chain_count());

@@ -46,7 +46,9 @@ SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, const SampledS
       light_films_.push_back(std::make_unique<SampleFilm>(
           scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
           group_count, settings.splats, scene_->camera().raster().border > 0));
+  if (light_layers_ && settings.light.exposures) exposures_ = scene_->camera().shutter().exposures;
   plan_ = plan_of(film_, passes_per_turn_);
+  plan_.samples_per_pass = exposures_;
 }
 
 SampledRendering::Place SampledRendering::place_of(uint64_t pass) const {
@@ -67,7 +69,8 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   Replay replay;
   RayCounts rays;
   SampleSink sink(replay);
-  PixelSampler numbers = streams(sample).sampler(pixel.x, pixel.y);
+  PixelSampler numbers =
+      streams(sample / exposures_, static_cast<int>(sample % exposures_)).sampler(pixel.x, pixel.y);
   replay.raster = Vec2(pixel) + numbers.next2();
   make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
   replay.radiance = mlt::shown(scene(), replay.radiance);
@@ -86,11 +89,12 @@ void SampledRendering::run_unit(uint64_t unit) {
   RayCounts rays;
   SampleSink sink(tile, layers_, light_layers_.get(), light_tiles);
   const std::unique_ptr<SampleTaker> taker = make_taker_(scene());
-  taker->sample_cells(tile.cells(), streams(pass), sink, rays);
+  for (int exposure = 0; exposure < exposures_; ++exposure)
+    taker->sample_cells(tile.cells(), streams(pass, exposure), sink, rays);
   taker->finish(sink, rays);
   for (size_t i = 0; i < light_films_.size(); ++i)
-    light_films_[i]->commit(place.group, order, tile_index, std::move(light_tiles[i]), 1);
-  film_.commit(place.group, order, tile_index, std::move(tile), 1);
+    light_films_[i]->commit(place.group, order, tile_index, std::move(light_tiles[i]), exposures_);
+  film_.commit(place.group, order, tile_index, std::move(tile), exposures_);
   invalid_ += sink.invalid();
   intersect_ += rays.intersect;
   occluded_ += rays.occluded;

@@ -101,7 +101,7 @@ inline SampledSettings camera_walks() {
 /// which each group has blocks: together they are stratified better than each group is.
 struct CellStreams {
   uint64_t seed;  ///< The seed, mixed (mix_bits).
-  uint32_t index;
+  SampleIndex index;
 
   uint64_t stream(int x, int y) const {
     const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
@@ -151,7 +151,7 @@ class SampledRendering : public Rendering {
                    MakeTaker make_taker);
 
   Memory memory(double spp) const override;
-  /// Takes one sample for each cell of one tile.
+  /// Takes one sample for each cell of one tile, or one for each exposure that is kept apart.
   void run_unit(uint64_t unit) override;
   Image image(int layer = all_light) const override {
     return is_sum(layer) ? sum_of_lamps() : shown(film_of(layer).image());
@@ -161,6 +161,8 @@ class SampledRendering : public Rendering {
   }
   bool groups_share_sequence() const override { return true; }
   const SampleFilm& film() const { return film_; }
+  /// Samples that each cell receives in a pass.
+  int exposures() const { return exposures_; }
   /// The mean brightness of its samples (SampleSums), if they record it.
   Estimate mean_brightness() const { return mean_of(&SampleSums::brightness); }
   Estimate mean_of_chains() const { return mean_of(&SampleSums::of_chains); }
@@ -186,13 +188,16 @@ class SampledRendering : public Rendering {
   Estimate mean_of(MeanSums SampleSums::* sums) const;
   /// The film's sums of a task.
   SampleFilm::Selection selection(const Task& task) const;
-  CellStreams streams(uint64_t pass) const {
-    return {mix_bits(seed_), static_cast<uint32_t>(pass)};
+  CellStreams streams(uint64_t pass, int exposure) const {
+    return {mix_bits(seed_),
+            {static_cast<uint32_t>(pass), static_cast<uint16_t>(exposure),
+             static_cast<uint16_t>(exposures_)}};
   }
 
   MakeTaker make_taker_;
   uint64_t passes_per_turn_;
   bool only_camera_walks_;
+  int exposures_ = 1;  ///< Samples of a cell in a pass: one for each exposure that is kept apart.
   SampleFilm film_;
   std::vector<std::string> layer_names_;
   SplatFilm layers_;                                      ///< A group for each layer.

@@ -2,6 +2,8 @@
 
 #include "math/wavelengths.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace mlt {
@@ -25,11 +27,31 @@ inline double distance_to(const Vec3& p, const Ray& ray) {
   return ray.before + dot(p - ray.o, ray.d);
 }
 
-/// The times when the shutter opens and closes.
+/// The times when the shutter opens first and closes last. Between them it may have several
+/// exposures, the frames of a shot: they begin at equal distances.
 struct Shutter {
   double open = 0, close = 0;
+  int exposures = 1;
+  double share = 1;  ///< The share of that distance for which it is open.
 
   bool opens() const { return open != close; }  ///< Else it shows one instant.
+  /// A time for a uniform number.
+  double time(double u) const {
+    if (exposures == 1) return open + u * share * (close - open);
+    const double place = u * exposures, first = std::min(std::floor(place), exposures - 1.0);
+    return open + (first + (place - first) * share) * (close - open) / exposures;
+  }
+  /// The number for a time, if it opens.
+  double number(double time) const {
+    const double place = (time - open) / (close - open) * exposures, first = exposure(time);
+    return share > 0 ? (first + (place - first) / share) / exposures : first / exposures;
+  }
+  /// The exposure that a time belongs to.
+  int exposure(double time) const {
+    constexpr double rounding = 1e-9;
+    const double place = opens() ? (time - open) / (close - open) * exposures : 0;
+    return static_cast<int>(std::clamp(std::floor(place + rounding), 0.0, exposures - 1.0));
+  }
 };
 
 /// A hit of the accelerator: the primitive, and the barycentrics of Embree on it.

@@ -62,7 +62,7 @@ BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSett
   }
 }
 
-void BidirectionalWave::add(uint64_t stream, uint32_t index, const Vec2& corner) {
+void BidirectionalWave::add(uint64_t stream, const SampleIndex& index, const Vec2& corner) {
   rasters_[size()] = corner;
   numbers_.add(stream, index);
 }

@@ -43,7 +43,7 @@ class BidirectionalWave {
 
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
   /// in the cell with this corner.
-  void add(uint64_t stream, uint32_t index, const Vec2& corner);
+  void add(uint64_t stream, const SampleIndex& index, const Vec2& corner);
   /// The size of the cells; by default that of a pixel.
   void set_cell(const Vec2& size) { cell_ = size; }
   int size() const { return numbers_.count(); }

@@ -29,7 +29,7 @@ class PathSampleWave {
 
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
   /// in this pixel.
-  void add(uint64_t stream, uint32_t index, const Vec2& pixel) {
+  void add(uint64_t stream, const SampleIndex& index, const Vec2& pixel) {
     wave_.numbers().add(stream, index);
     rasters_.push_back(pixel);
   }

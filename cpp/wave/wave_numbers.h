@@ -12,10 +12,12 @@ class WaveNumbers {
     count_ = 0;
     next_ = {};
   }
-  void add(uint64_t stream, uint32_t index) {
+  void add(uint64_t stream, const SampleIndex& index) {
     stream_[count_] = stream;
-    key_[count_] = PixelSampler::key_of(stream, index);
-    index_[count_++] = index;
+    key_[count_] = PixelSampler::key_of(stream, index.place);
+    exposure_[count_] = index.exposure;
+    exposures_ = index.exposures;
+    index_[count_++] = index.place;
   }
   int count() const { return count_; }
 
@@ -32,8 +34,9 @@ class WaveNumbers {
   void read2(const Place& at, int begin, int count, double* x, double* y) const;
   /// The number at a place of the i-th sample.
   double read(const Place& at, int i) const {
-    return at.stratified_single() ? PixelSampler::single(stream_[i], index_[i], at)
-                                  : word(i, at.words);
+    return at.stratified_single()
+               ? PixelSampler::single(stream_[i], {index_[i], exposure_[i], exposures_}, at)
+               : word(i, at.words);
   }
 
   /// Moves the sample at `from` to the i-th place.
@@ -41,6 +44,7 @@ class WaveNumbers {
     stream_[i] = stream_[from];
     key_[i] = key_[from];
     index_[i] = index_[from];
+    exposure_[i] = exposure_[from];
   }
 
  private:
@@ -51,6 +55,8 @@ class WaveNumbers {
   Place next_;
   Wave<uint64_t> stream_, key_;
   Wave<uint32_t> index_;
+  Wave<uint16_t> exposure_;
+  uint16_t exposures_ = 1;
 };
 
 }  // namespace mlt

@@ -11,7 +11,7 @@ from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
 from pymlt.pictures.luminance import target_luminance
-from pymlt.rendering.frames import check_pattern, file_of, parse_frames, scene_at, timing
+from pymlt.rendering.frames import check_pattern, file_of, parse_frames, scene_at, timing, windows
 
 
 def moving(last: float = 1) -> dict:
@@ -87,7 +87,7 @@ def test_a_frame_is_the_scene_while_its_shutter_is_open(tmp_path):
 
 def test_each_frame_has_another_time():
     scene = mlt.load_dict(moving())
-    frames = [scene_at(scene, timing(4, 0.5).times(f)) for f in (0, 2)]
+    frames = [scene_at(scene, timing(4, 0.5), [f]) for f in (0, 2)]
     first, second = (mlt.render(frame, spp=64, seed=1) for frame in frames)
     assert np.abs(first - second).max() > 0.1
 
@@ -99,7 +99,7 @@ def test_flicker_is_the_error_of_the_change(other):
     scene = moving()
     scene["ball"]["bsdf"] = {"type": "ref", "id": "clay"}
     scene = mlt.load_dict(scene)
-    before, after = (scene_at(scene, timing(10, 0.5).times(f)) for f in (1, 2))
+    before, after = (scene_at(scene, timing(10, 0.5), [f]) for f in (1, 2))
     light = target_luminance(mlt.render(after, "bdpt", spp=1024, seed=99))
     found, claimed = [], []
     for seed in range(16):
@@ -147,6 +147,80 @@ def test_frames_whose_files_exist_are_skipped_if_asked(tmp_path):
 def test_a_shot_has_no_checkpoint(tmp_path):
     with pytest.raises(mlt.UsageError, match="skip_existing"):
         mlt.render_shot(moving(), frames=1, output="#.exr", checkpoint=tmp_path / "a.mlt")
+
+
+# ---- frames that one render has
+
+
+def test_windows_end_at_cuts_and_when_they_are_full():
+    assert windows([1, 2, 3, 4, 5, 9, 10], 3) == [[1, 2, 3], [4, 5], [9, 10]]
+
+
+def shining() -> dict:
+    """The ball is of glass, and its caustic moves."""
+    scene = moving()
+    scene["ball"]["bsdf"] = {"type": "dielectric"}
+    return scene
+
+
+def images(tmp_path, name: str, frames: str, **settings) -> tuple[np.ndarray, mlt.Shot]:
+    settings = {"output": tmp_path / f"{name}.#.exr", "fps": 8, **settings}
+    shot = mlt.render_shot(shining(), "mlt", frames=frames, **settings)
+    return np.array([mlt.read_image(frame.files[0]) for frame in shot.frames]), shot
+
+
+def test_frames_together_have_the_mean_of_frames_alone(tmp_path):
+    """By 16 seeds each: the mean of each frame, and those of blocks of 4 x 4 pixels."""
+
+    def means(together: int) -> np.ndarray:
+        return np.array(
+            [
+                images(tmp_path, "a", "1:3", together=together, spp=64, seed=seed, threads=1)[0]
+                .reshape(3, 3, 4, 4, 4, 3)
+                .mean(axis=(2, 4, 5))
+                for seed in range(16)
+            ]
+        )
+
+    both = means(3), means(1)
+    variance = sum(m.var(axis=0, ddof=1) for m in both) / 16
+    lit = variance > 0
+    z = (both[0].mean(axis=0) - both[1].mean(axis=0))[lit] / np.sqrt(variance[lit])
+    assert lit.sum() > 30
+    assert np.sqrt(np.mean(z**2)) < 1.6
+    whole = [m.mean(axis=(2, 3)) for m in both]
+    error = np.sqrt(sum(w.var(axis=0, ddof=1) for w in whole) / 16)
+    assert np.all(np.abs(whole[0].mean(axis=0) - whole[1].mean(axis=0)) < 4 * error)
+
+
+def test_frames_together_flicker_less(tmp_path):
+    """Where little moves from frame to frame."""
+    together, shot = images(tmp_path, "a", "1:4", together=4, spp=256, fps=100)
+    alone, apart = images(tmp_path, "b", "1:4", together=1, spp=256, fps=100)
+    assert together.shape == alone.shape
+    assert [frame.stats.get("exposures") for frame in shot.frames] == [4] * 4
+    assert shot.flicker < 0.75 * apart.flicker
+    assert 0.3 < shot.error / apart.error < 1.1
+
+
+def test_a_window_of_one_frame_is_a_render_of_its_own(tmp_path):
+    scene = scene_at(mlt.load_dict(shining()), timing(8, 0.5), [2])
+    expected = mlt.render(scene, "mlt", spp=8, seed=5)
+    alone, _ = images(tmp_path, "a", "2", spp=8, seed=5)
+    assert np.array_equal(alone[0], expected)
+
+
+def test_frames_together_do_not_change_with_the_number_of_threads(tmp_path):
+    one, _ = images(tmp_path, "a", "1:3", spp=16, threads=1)
+    two, _ = images(tmp_path, "b", "1:3", spp=16, threads=2)
+    assert np.array_equal(one, two)
+
+
+def test_what_frames_together_do_not_have_is_refused(tmp_path):
+    with pytest.raises(mlt.UsageError, match="rendered together have no aovs"):
+        images(tmp_path, "a", "1:3", together=3, spp=1, aovs="albedo")
+    _, shot = images(tmp_path, "a", "1:2", spp=1, aovs="albedo")
+    assert "exposures" not in shot.frames[0].stats
 
 
 SCENE = tiny.XML.replace(

@@ -1,6 +1,7 @@
 // Moves the light paths of chains that render.
 #pragma once
 
+#include "mutation/exposure_sweep.h"
 #include "mutation/path_chain.h"
 #include "mutation/path_target.h"
 #include "path/valid_path.h"
@@ -10,10 +11,15 @@ namespace mlt {
 
 class PathKernel : public PathMixture, public KernelDefaults {
  public:
-  PathKernel(const PathTarget& target, const PathMixture& mixture)
-      : PathMixture(mixture), target_(&target) {}
+  PathKernel(const PathTarget& target, const PathMixture& mixture, const ChainId& id)
+      : PathMixture(mixture), target_(&target), sweep_(target, id.rng(Purpose::exposures)) {}
 
-  void record(ChainRecorder& recorder, const PathState& x, double weight) const {
+  void record(ChainRecorder& recorder, const PathState& x, double weight) {
+    if (!sweep_.wanted() || !recorder.tells_exposures()) return record_one(recorder, x, weight);
+    sweep_(x, weight, scratch(),
+           [&](const PathState& y, double share) { record_one(recorder, y, share); });
+  }
+  void record_one(ChainRecorder& recorder, const PathState& x, double weight) const {
     recorder.record(x.raster, x.rgb / x.target, weight,
                     recorder.wants_density() ? target_->over_density(x) : 1,
                     recorder.layers_of(x.path));
@@ -32,6 +38,12 @@ class PathKernel : public PathMixture, public KernelDefaults {
   }
   std::string signature(const PathState& x) const { return mlt::signature(x.terms); }
 
+  void save_progress(ByteWriter& bytes) const {
+    if (sweep_.wanted()) sweep_.save(bytes);
+  }
+  void load_progress(ByteReader& bytes) {
+    if (sweep_.wanted()) sweep_.load(bytes);
+  }
   void save(ByteWriter& bytes, const PathState& x) const { mlt::save(bytes, x.path); }
   void load(ByteReader& bytes, PathState& x) {
     mlt::load(bytes, x.path);
@@ -42,6 +54,7 @@ class PathKernel : public PathMixture, public KernelDefaults {
 
  private:
   const PathTarget* target_;
+  ExposureSweep sweep_;
 };
 
 /// Names of the rows of the statistics; `weights` may have rows of their own for each length.

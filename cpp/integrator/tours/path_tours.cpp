@@ -27,7 +27,7 @@ PathTours::PathTours(const PathTarget& target, const PathMixture& mixture, const
       rules_(rules),
       seeds_(target),
       in_waves_(BidirectionalWave::supports(target.scene(), PathSeeds::settings(target))),
-      chain_(PathKernel(target, mixture), id, {}),
+      chain_(PathKernel(target, mixture, id), id, {}),
       id_(id),
       stream_(mix_bits(mix_bits(id.seed ^ mix_bits(uint64_t(id.purpose))) + id.group)),
       due_(chain_.rng().next()) {
@@ -198,6 +198,7 @@ double PathTours::light_due() const {
 
 void PathTours::save(ByteWriter& bytes) const {
   chain_.save_progress(bytes);
+  chain_.kernel().save_progress(bytes);
   samples_.save(bytes);
   bytes.write(count_);
   bytes.write(due_);
@@ -211,6 +212,7 @@ void PathTours::save(ByteWriter& bytes) const {
 
 void PathTours::load(ByteReader& bytes) {
   chain_.load_progress(bytes);
+  chain_.kernel().load_progress(bytes);
   samples_.load(bytes);
   bytes.read(count_);
   bytes.read(due_);

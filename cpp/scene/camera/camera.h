@@ -116,8 +116,8 @@ class Camera : public Object {
   virtual std::optional<SurfacePoint> hit_lens(const Ray& /*ray*/) const { return std::nullopt; }
 
   const Raster& raster() const { return raster_; }
-  /// Camera time: uniform between shutter open and shutter close.
-  double time(double u) const { return shutter_.open + u * (shutter_.close - shutter_.open); }
+  /// Camera time: uniform while the shutter is open.
+  double time(double u) const { return shutter_.time(u); }
   const Shutter& shutter() const { return shutter_; }
   /// Whether paths have wavelengths, and else R, G and B.
   bool spectral() const { return spectral_; }

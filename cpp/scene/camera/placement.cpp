@@ -18,11 +18,17 @@ PlacedCamera::Pose PlacedCamera::moved_pose(double time) const {
 
 std::vector<Parameter> shutter_parameters() {
   return {{"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
-          {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."}};
+          {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."},
+          {"exposures", ParamType::integer, int64_t{1},
+           "How many times the shutter opens between these times, at equal distances."},
+          {"exposure_share", ParamType::real, 1.0,
+           "The share of the time from one exposure to the next for which the shutter is open."}};
 }
 
 Shutter read_shutter(Params& params) {
-  const Shutter shutter{params.real("shutter_open"), params.real("shutter_close")};
+  const Shutter shutter{params.real("shutter_open"), params.real("shutter_close"),
+                        static_cast<int>(params.integer_in("exposures", 1, 1 << 20)),
+                        params.real_in("exposure_share", 0, 1)};
   if (shutter.close < shutter.open) params.fail("shutter_close", "is before shutter_open");
   return shutter;
 }

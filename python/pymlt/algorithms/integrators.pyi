@@ -46,6 +46,9 @@ class BDPT(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -70,6 +73,7 @@ class BDPT(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     light_image: bool
     sample_direct: bool
@@ -85,6 +89,7 @@ class BDPT(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
         light_image: bool = True,
         sample_direct: bool = True,
@@ -122,6 +127,9 @@ class Direct(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -136,6 +144,7 @@ class Direct(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     def __init__(
         self,
@@ -147,6 +156,7 @@ class Direct(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
     ) -> None: ...
 
@@ -172,6 +182,9 @@ class ERPT(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -242,6 +255,7 @@ class ERPT(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     luminance_samples: int
     chains: int
@@ -278,6 +292,7 @@ class ERPT(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
@@ -328,6 +343,9 @@ class MLT(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -460,6 +478,7 @@ class MLT(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     luminance_samples: int
     chains: int
@@ -520,6 +539,7 @@ class MLT(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
@@ -594,6 +614,9 @@ class MMLT(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -631,6 +654,7 @@ class MMLT(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     luminance_samples: int
     chains: int
@@ -650,6 +674,7 @@ class MMLT(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,
@@ -686,6 +711,9 @@ class Path(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -700,6 +728,7 @@ class Path(Integrator):
     waves: bool
     equiangular: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     def __init__(
         self,
@@ -711,6 +740,7 @@ class Path(Integrator):
         waves: bool = True,
         equiangular: bool = False,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
     ) -> None: ...
 
@@ -735,6 +765,9 @@ class PSSMLT(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -775,6 +808,7 @@ class PSSMLT(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     luminance_samples: int
     chains: int
@@ -795,6 +829,7 @@ class PSSMLT(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 256,
@@ -829,6 +864,9 @@ class PTracer(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -842,6 +880,7 @@ class PTracer(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     def __init__(
         self,
@@ -852,6 +891,7 @@ class PTracer(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
     ) -> None: ...
 
@@ -876,6 +916,9 @@ class RJMLT(Integrator):
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
+    exposure_layers : boolean, default False
+        Keep the light of each of the sensor's `exposures` as a layer, such as `exposure.1`,
+        with a layer of its error. They add up to the image.
     light_layers : string, default ''
         Keep the light of classes of paths as layers: `caustics=LS+DE lit=L(D|M)E`, names with
         regular expressions over the letters of a path from the light to the eye: L, S for each
@@ -913,6 +956,7 @@ class RJMLT(Integrator):
     strict_normals: bool
     waves: bool
     light_groups: bool
+    exposure_layers: bool
     light_layers: str
     luminance_samples: int
     chains: int
@@ -932,6 +976,7 @@ class RJMLT(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         light_groups: bool = False,
+        exposure_layers: bool = False,
         light_layers: str = "",
         luminance_samples: int = 50000,
         chains: int = 128,

@@ -41,6 +41,13 @@ def add_shot(command) -> None:
         help="share of a frame for which the shutter is open, 0 to 1 (0.5)",
     )
     command.add_argument(
+        "--together",
+        type=int,
+        metavar="N",
+        help="how many frames that follow each other one render has (for mlt 16, or as many as "
+        "4 GB hold, else 1)",
+    )
+    command.add_argument(
         "--skip-existing",
         action="store_true",
         help="leave out the frames of which all files exist",
@@ -50,7 +57,7 @@ def add_shot(command) -> None:
 def check_shot(args) -> None:
     """Raises UsageError for flags that shots do not have, or that only they have."""
     if not args.frames:
-        for name in (*TIMES, "skip_existing"):
+        for name in (*TIMES, "together", "skip_existing"):
             if getattr(args, name) not in (None, False):
                 raise _core.UsageError(f"--{name.replace('_', '-')} needs --frames")
         return
@@ -81,10 +88,15 @@ def run_shot(args) -> int:
         def integrator_of(seen: _core.Scene) -> _core.Integrator:
             return as_integrator(seen, args.integrator, args.parameters)
 
-        for number, job, flicker in render_frames(
-            scene, integrator_of, when, to_come, options, lambda job: wait(job, signals, args.quiet)
+        for number, result, flicker in render_frames(
+            scene,
+            integrator_of,
+            when,
+            to_come,
+            options,
+            lambda job: wait(job, signals, args.quiet),
+            args.together,
         ):
-            result = job.result()
             files, saved = save(one_image(args, number), result)
             complete = complete and saved
             frame = Frame(number, files, result.stats, flicker)

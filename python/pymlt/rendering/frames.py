@@ -80,6 +80,18 @@ class Timing(NamedTuple):
     def times(self, frame: int) -> tuple[float, float]:
         return frame / self.fps, (frame + self.shutter) / self.fps
 
+    def shutter_of(self, window: list[int]) -> dict[str, float]:
+        """The parameters of a sensor that sees these frames, which follow each other."""
+        opens, closes = self.times(window[0])
+        if len(window) == 1:
+            return {"shutter_open": opens, "shutter_close": closes}
+        return {
+            "shutter_open": opens,
+            "shutter_close": (window[-1] + 1) / self.fps,
+            "exposures": len(window),
+            "exposure_share": self.shutter,
+        }
+
 
 def timing(fps: float, shutter: float) -> Timing:
     """Raises UsageError for what is no number of frames per second, or no share of a frame."""
@@ -94,14 +106,26 @@ def timing(fps: float, shutter: float) -> Timing:
     return found
 
 
-def scene_at(scene: _core.Scene, times: tuple[float, float]) -> _core.Scene:
-    """The scene as its sensors see it between these times."""
+def scene_at(scene: _core.Scene, timing: Timing, window: list[int]) -> _core.Scene:
+    """The scene as its sensors see it in these frames, which follow each other."""
+    shutter = timing.shutter_of(window)
     values = {}
     for name in scene.parameters():
-        for side, time in zip((".shutter_open", ".shutter_close"), times, strict=True):
-            if name.endswith(side):
-                values[name] = time
+        own = name.rpartition(".")[2]
+        if own in shutter:
+            values[name] = shutter[own]
     return scene.updated(values)
+
+
+def windows(frames: list[int], most: int) -> list[list[int]]:
+    """The frames in runs of such as follow each other, of this many at most."""
+    runs: list[list[int]] = []
+    for frame in frames:
+        if runs and len(runs[-1]) < most and runs[-1][-1] == frame - 1:
+            runs[-1].append(frame)
+        else:
+            runs.append([frame])
+    return runs
 
 
 def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str | None:

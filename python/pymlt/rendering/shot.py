@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from .. import _core
 from ..algorithms.integrator import IntegratorLike, as_integrator
 from ..formats.loading import SceneLike, SensorLike, as_scene
 from .bands import finish
-from .frames import Frames, Timing, check_pattern, file_of, parse_frames, scene_at, stands_still
+from .frames import (
+    Frames,
+    Timing,
+    check_pattern,
+    file_of,
+    parse_frames,
+    scene_at,
+    stands_still,
+    windows,
+)
 from .frames import timing as checked_timing
 from .job import Job
-from .options import RenderOptions
+from .options import RenderOptions, integer
 from .progress import progress_bar
+from .result import Result
 from .stats import Stats
+
+IntegratorOf = Callable[[_core.Scene], _core.Integrator]
 
 
 @dataclass
@@ -77,26 +90,118 @@ def frames_to_render(
     return [f for f in frames if not exists(f)], [f for f in frames if exists(f)]
 
 
+#: Bytes that a render of several frames may take, and the most frames.
+MOST_BYTES, MOST_TOGETHER = 4 * 2**30, 16
+
+
+def frames_together(
+    scene: _core.Scene, integrator: _core.Integrator, options: RenderOptions, together: int | None
+) -> int:
+    """How many frames one render has. Raises UsageError."""
+    alone = [name for name, usual in ALONE.items() if getattr(options, name) != usual]
+    if together is not None:
+        together = max(1, integer("together", together, 64))
+        if together > 1 and alone:
+            raise _core.UsageError(f"frames that are rendered together have no {alone[0]}")
+        return together
+    if alone or json.loads(integrator.settings)["type"] != "mlt":
+        return 1
+    width, height = scene.info()["size"]
+    bytes_per_film = 768 * width * height
+    return min(MOST_TOGETHER, max(1, MOST_BYTES // bytes_per_film - 1))
+
+
+#: Options that renders of several frames do not have, and what they are if they are not given.
+ALONE = {
+    "error": None,
+    "aovs": None,
+    "light_groups": False,
+    "light_layers": None,
+    "alpha": False,
+    "fireflies": "keep",
+    "denoise": False,
+}
+
+
+class Window:
+    """The render of some frames that follow each other."""
+
+    def __init__(
+        self, scene: _core.Scene, integrator_of: IntegratorOf, timing: Timing, frames: list[int]
+    ):
+        self.frames = frames
+        self.scene = scene_at(scene, timing, frames)
+        self.integrator = integrator_of(self.scene)
+        if len(frames) > 1:
+            self.integrator = _core.with_light_layers(self.integrator, False, [], exposures=True)
+
+    def start(self, options: RenderOptions) -> Job:
+        count = len(self.frames)
+        if count > 1:
+            spp, time = options.spp, options.time
+            if spp is None and time is None:
+                spp = self.scene.info()["sample_count"]
+            options = replace(options, spp=spp and spp * count, time=time and time * count)
+        self.job = Job(self.scene, self.integrator, options)._start()
+        return self.job
+
+    def result(self, place: int) -> Result:
+        """That of the frame at this place."""
+        whole, count = self.job.result(), len(self.frames)
+        if count == 1:
+            return whole
+        name = f"exposure.{place + 1}"
+        error = whole.layers.get("error." + name)
+        stats = {k: v for k, v in whole.stats.items() if k not in OF_WHOLE_IMAGES}
+        stats |= {"exposures": count, "error": self.job._job.relative_error(place)}
+        return replace(
+            whole,
+            image=whole.layers[name] * count,
+            layers={} if error is None else {"error": error * count},
+            stats=stats,
+        )
+
+    def flicker(self, place: int, before: Window | None) -> float | None:
+        """That of the frame at this place, if it follows another one, or the window before."""
+        if place > 0:
+            return self.job._job.flicker(self.job._job, place, place - 1)
+        count = len(self.frames)
+        if before is None or before.frames[-1] != self.frames[0] - 1:
+            return None
+        if len(before.frames) != count:
+            return None  # their images have other scales
+        if count == 1:
+            return self.job.flicker(before.job)
+        return self.job._job.flicker(before.job._job, 0, count - 1)
+
+
+#: Statistics of the image of all frames of a window together.
+OF_WHOLE_IMAGES = {"block_error", "pixels_carrying_error", "disagreements"}
+
+
 def render_frames(
     scene: _core.Scene,
-    integrator_of: Callable[[_core.Scene], _core.Integrator],
+    integrator_of: IntegratorOf,
     timing: Timing,
     frames: list[int],
     options: RenderOptions,
     wait: Callable[[Job], object],
-) -> Iterator[tuple[int, Job, float | None]]:
-    """Each frame's number, its render, which has ended, and its flicker. None after a render that
-    was cancelled, which is not among them."""
-    before: tuple[int, Job] | None = None
-    for frame in frames:
-        seen = scene_at(scene, timing.times(frame))
-        job = Job(seen, integrator_of(seen), options)._start()
-        finish(job, wait)
-        if job.cancelled:
+    together: int | None,
+) -> Iterator[tuple[int, Result, float | None]]:
+    """Each frame's number, the result of its render, and its flicker. None after a render that was
+    cancelled, whose frames are not among them."""
+    if not frames:
+        return
+    most = frames_together(scene, integrator_of(scene), options, together)
+    before: Window | None = None
+    for run in windows(frames, most):
+        window = Window(scene, integrator_of, timing, run)
+        finish(window.start(options), wait)
+        if window.job.cancelled:
             return
-        follows = before is not None and before[0] == frame - 1
-        yield frame, job, job.flicker(before[1]) if before and follows else None
-        before = frame, job
+        for place, frame in enumerate(run):
+            yield frame, window.result(place), window.flicker(place, before)
+        before = window
 
 
 def render_shot(
@@ -108,6 +213,7 @@ def render_shot(
     fps: float = 24,
     shutter: float = 0.5,
     skip_existing: bool = False,
+    together: int | None = None,
     sensor: SensorLike | None = None,
     spectral: bool = False,
     progress: bool | Callable[[float], object] | None = None,
@@ -124,6 +230,9 @@ def render_shot(
         open, for this share of a frame.
     skip_existing
         whether frames whose files exist are left out.
+    together
+        how many frames that follow each other one render has. None: for `mlt`, whose noise then
+        changes as slowly as the picture, 16 or as many as 4 GB hold, else 1.
 
     The other arguments are those of `start`, and hold for each frame: `spp` and `time` are those of
     one; there is no `checkpoint`. `progress` is that of `render`. Warns of a shot in which nothing
@@ -143,13 +252,18 @@ def render_shot(
     with progress_bar(progress) as show:
 
         def wait(job: Job) -> None:
-            ended = len(shot.frames)
-            job.wait(progress=lambda share: show((ended + share) / len(to_come), {}))
+            ended, own = len(shot.frames), max(1, len(job.light_groups))
+            job.wait(progress=lambda share: show((ended + own * share) / len(to_come), {}))
 
-        for frame, job, flicker in render_frames(
-            scene, lambda seen: as_integrator(seen, integrator), when, to_come, options, wait
+        for frame, result, flicker in render_frames(
+            scene,
+            lambda seen: as_integrator(seen, integrator),
+            when,
+            to_come,
+            options,
+            wait,
+            together,
         ):
-            result = job.result()
             result.write(file_of(pattern, frame))
             shot.frames.append(Frame(frame, [file_of(pattern, frame)], result.stats, flicker))
     return shot

@@ -64,36 +64,40 @@ TEST(ErrorEstimate, IsRelativeToTheBrightness) {
 const std::vector<Image> brighter = {plain(2, 8), plain(4, 8), plain(6, 8)};
 
 /// s^2 = 1/3 where L = 4; M = 16/3.
+RelativeError change(const Rendering& before, const Rendering& after) {
+  return error_of_change({&before}, {&after});
+}
+
 TEST(ErrorOfChange, IsThatOfTheDifferencesOfTheGroups) {
-  const RelativeError error = error_of_change(Given(groups, {}), Given(brighter, {}));
+  const RelativeError error = change(Given(groups, {}), Given(brighter, {}));
   EXPECT_NEAR(error.value, std::sqrt(2. / 3 * 1. / 3 / (16 + 0.01 * 256 / 9)), 1e-6);
   EXPECT_NEAR(error.carrying, 8 * height, 1e-3);
 }
 
 TEST(ErrorOfChange, VanishesWhereAllGroupsChangeAlike) {
   const std::vector<Image> shifted = {plain(2, 1), plain(3, 1), plain(4, 1)};
-  EXPECT_EQ(error_of_change(Given(groups, {}), Given(shifted, {})).value, 0);
+  EXPECT_EQ(change(Given(groups, {}), Given(shifted, {})).value, 0);
 }
 
 TEST(ErrorOfChange, HasWhatTheGroupsOfEachHaveInCommon) {
   const std::vector<Image> same(3, plain(2, 2));
   const RelativeError error =
-      error_of_change(Given(same, plain(0.3f, 0.3f)), Given(same, plain(0.4f, 0.4f)));
+      change(Given(same, plain(0.3f, 0.3f)), Given(same, plain(0.4f, 0.4f)));
   EXPECT_NEAR(error.value, std::sqrt((0.09 + 0.16) / (4 + 0.04)), 1e-6);
 }
 
 TEST(ErrorOfChange, IsThatOfThePartsToo) {
   const Given before(groups, {}), after(brighter, {});
   const std::vector<GroupImage> same(3, {plain(2, 2), 1});
-  const RelativeError error = error_of_change(Given(same, {&before}), Given(same, {&after}));
+  const RelativeError error = change(Given(same, {&before}), Given(same, {&after}));
   EXPECT_NEAR(error.value, std::sqrt(2. / 3 * 1. / 3 / (36 + 0.01 * 484 / 9)), 1e-6);
 }
 
 TEST(ErrorOfChange, KnowsNothingOfGroupsThatOneOfBothLacks) {
   const std::vector<GroupImage> one = {{plain(2, 2), 1}, {}};
   const Given less(one, std::vector<const Rendering*>{});
-  EXPECT_TRUE(std::isnan(error_of_change(less, Given(groups, {})).value));
-  EXPECT_TRUE(std::isnan(error_of_change(Given(groups, {}), less).value));
+  EXPECT_TRUE(std::isnan(change(less, Given(groups, {})).value));
+  EXPECT_TRUE(std::isnan(change(Given(groups, {}), less).value));
 }
 
 }  // namespace

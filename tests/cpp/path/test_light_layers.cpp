@@ -49,10 +49,29 @@ TEST(LightLayers, AreThoseOfTheLampAndOfAllClassesThatMatch) {
 }
 
 TEST(LightLayers, AreAsManyAsASetHasBits) {
-  const LightLayers layers(*lamps(31), {true, {}});
-  EXPECT_EQ(layers.count(), 32);
-  EXPECT_EQ(LightLayers::Finder(&layers).of(path_of(32, "")), 1u << 31);
-  EXPECT_THROW(LightLayers(*lamps(32), {true, {}}), UsageError);
+  const LightLayers layers(*lamps(62), {true, {}});
+  EXPECT_EQ(layers.count(), 63);
+  EXPECT_EQ(LightLayers::Finder(&layers).of(path_of(63, "")), uint64_t{1} << 62);
+  EXPECT_THROW(LightLayers(*lamps(63), {true, {}}), UsageError);
+}
+
+TEST(LightLayers, OfExposuresFollowFromTheTime) {
+  const ScenePtr scene = load_scene(
+      camera("0, 0, 4", "0, 0, 0", 40, film(4, 4), "perspective",
+             "<float name='shutter_open' value='2'/><float name='shutter_close' value='5'/>"
+             "<integer name='exposures' value='3'/>") +
+      "<emitter type='point'/>");
+  const LightLayers layers(*scene, {false, {{"all", ".*"}}, true});
+  EXPECT_EQ(layers.names(),
+            (std::vector<std::string>{"exposure.1", "exposure.2", "exposure.3", "all"}));
+  EXPECT_EQ(layers.group_count(), 3);
+  LightLayers::Finder finder(&layers);
+  Path path = path_of(0, "D");
+  for (const auto& [time, set] : {std::pair{2.0, 0b1001u}, {3.0, 0b1010u}, {4.9, 0b1100u}}) {
+    path.time = time;
+    EXPECT_EQ(finder.of(path), set) << time;
+  }
+  EXPECT_THROW(LightLayers(*scene, {true, {}, true}), UsageError);
 }
 
 TEST(LightLayers, OfASavedStateExist) {

@@ -499,6 +499,24 @@ TEST(Fisheye, IsBlackOutsideOfTheCircle) {
   }
 }
 
+TEST(Camera, TimeRunsThroughAllExposures) {
+  const CameraPtr camera = make<Camera>(sensor_perspective(), {{"shutter_open", 1.0},
+                                                               {"shutter_close", 4.0},
+                                                               {"exposures", int64_t{3}},
+                                                               {"exposure_share", 0.5}});
+  const Shutter& shutter = camera->shutter();
+  for (const auto& [u, time, exposure] : {std::tuple{0.0, 1.0, 0},
+                                          {0.25, 1.375, 0},
+                                          {1. / 3, 2.0, 1},
+                                          {0.5, 2.25, 1},
+                                          {0.9, 3.35, 2}}) {
+    EXPECT_NEAR(camera->time(u), time, 1e-12);
+    EXPECT_NEAR(shutter.number(time), u, 1e-12);
+    EXPECT_EQ(shutter.exposure(camera->time(u)), exposure) << u;
+  }
+  EXPECT_THAT(error_in(sensor_perspective(), {{"exposures", int64_t{0}}}), HasSubstr("exposures"));
+}
+
 TEST(Camera, TimeRunsWhileTheShutterIsOpen) {
   const auto made =
       make<Camera>(sensor_perspective(), {{"shutterOpen", 0.5}, {"shutterClose", 2.5}});
