@@ -93,7 +93,7 @@ TOPICS = {
     ),
     "images": (
         "Images and their files",
-        "read_image write_image read_metadata tonemap denoise",
+        "read_image write_image write_film read_metadata tonemap denoise",
         ["cryptomatte"],
     ),
     "algorithms": (

@@ -43,6 +43,7 @@ from .images import read_image, read_metadata, write_image
 from .pictures.denoising import denoise
 from .pictures.techniques import Technique
 from .pictures.tonemapping import tonemap
+from .rendering.film import write_film
 from .rendering.job import Job
 from .rendering.merging import merge
 from .rendering.mixing import mix
@@ -125,6 +126,7 @@ __all__ = [
     "tonemap",
     "traverse",
     "view",
+    "write_film",
     "write_image",
 ]
 Scene._repr_html_ = _preview

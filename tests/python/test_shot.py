@@ -255,6 +255,14 @@ def test_the_command_line_renders_the_frames_of_python(scene, tmp_path):
     assert "0 of 2 frames, 2 skipped" in again.stderr
 
 
+def test_the_command_line_makes_a_film(scene, tmp_path):
+    pytest.importorskip("imageio_ffmpeg", reason="the extra video is not installed")
+    flags = ["--frames", "1:3", "--fps", "10", "--spp", "4", "-o", tmp_path / "a.#.exr"]
+    done = run(PYMLT, "render", scene, *flags, "-o", tmp_path / "a.mp4")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "a.mp4").read_bytes()[4:8] == b"ftyp"
+
+
 @pytest.mark.parametrize(
     ("flags", "message"),
     [
@@ -264,6 +272,7 @@ def test_the_command_line_renders_the_frames_of_python(scene, tmp_path):
         (["--skip-existing", "-o", "a.exr"], "--skip-existing needs --frames"),
         (["--frames", "1:3", "-o", "#.exr", "--checkpoint", "a"], "given with --checkpoint"),
         (["--frames", "1:3", "-o", "#.exr", "--fps", "0"], "should be a number above 0"),
+        (["--frames", "1:3", "-o", "a.mp4"], "add -o shot.####.exr"),
     ],
 )
 def test_flags_that_make_no_sense_are_refused(scene, flags, message):

@@ -6,7 +6,9 @@ import argparse
 import json
 
 from .. import _core
+from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
+from ..rendering.film import is_film, write_film
 from ..rendering.frames import (
     check_pattern,
     file_of,
@@ -17,6 +19,7 @@ from ..rendering.frames import (
 from ..rendering.shot import Frame, Shot, frames_to_render, render_frames
 from ..rendering.summary import percent
 from .common import load_scene, reader, say, warn
+from .display import exposure
 from .running import check_outputs, options_of, save, wait
 from .signals import Signals
 
@@ -64,8 +67,19 @@ def check_shot(args) -> None:
     for name in ("bands", "checkpoint", "resume"):
         if getattr(args, name):
             raise _core.UsageError(f"--frames cannot be given with --{name}")
-    for path in args.output:
+    sequences, films = outputs(args)
+    for path in sequences:
         check_pattern(path)
+    if films and not sequences:
+        raise _core.UsageError(f"{films[0]} is made of the files of frames; add -o shot.####.exr")
+    if films:
+        import_extra("imageio_ffmpeg", "video", films[0])
+
+
+def outputs(args) -> tuple[list[str], list[str]]:
+    """The names of files for each frame, and those of films."""
+    films = [path for path in args.output if is_film(path)]
+    return [path for path in args.output if path not in films], films
 
 
 def run_shot(args) -> int:
@@ -75,8 +89,9 @@ def run_shot(args) -> int:
             for name, default in TIMES.items()
         )
     )
-    to_come, skipped = frames_to_render(args.frames, args.output, args.skip_existing)
-    check_outputs(args, [file_of(path, args.frames[0]) for path in args.output])
+    sequences, films = outputs(args)
+    to_come, skipped = frames_to_render(args.frames, sequences, args.skip_existing)
+    check_outputs(args, [file_of(path, args.frames[0]) for path in sequences])
     options = options_of(args)
     shot, complete = Shot(skipped=skipped), True
     with Signals() as signals:
@@ -105,7 +120,12 @@ def run_shot(args) -> int:
             known += frame.stats["warnings"]
             if not args.quiet:
                 say(f"frame {number}: {result._summary()}{flicker_of(frame)}: {', '.join(files)}")
-        return ended(args, shot, complete and save_stats(args, shot), signals.caught)
+        complete = complete and save_stats(args, shot)
+        if not signals.caught:
+            files = [file_of(sequences[0], number) for number in args.frames] if films else []
+            for path in films:
+                write_film(path, files, fps=when.fps, exposure=exposure(args), tonemap=args.tonemap)
+        return ended(args, shot, complete, signals.caught)
 
 
 def tell(args, warnings: list[str]) -> None:
@@ -115,7 +135,7 @@ def tell(args, warnings: list[str]) -> None:
 
 def one_image(args, number: int) -> argparse.Namespace:
     """The flags for the image of one frame."""
-    files = [file_of(path, number) for path in args.output]
+    files = [file_of(path, number) for path in outputs(args)[0]]
     return argparse.Namespace(**{**vars(args), "output": files, "stats": None})
 
 
