@@ -82,6 +82,8 @@ constexpr double rare_share = 0.1;
 /// The least share of rare light for which chains are searched, where samples that search take no
 /// longer than others, and the part of it along chains with the same lobes.
 constexpr double least_rare = 0.002, least_part = 0.25;
+/// The most searches, in the mean, that find a chain again: the square of that number is noise.
+constexpr double most_again = 3;
 
 /// Samples of bidirectional path tracing that search for all chains.
 class ManifoldLessons {
@@ -119,7 +121,8 @@ class ManifoldLessons {
   std::unordered_map<uint64_t, double> ratios() const {
     std::unordered_map<uint64_t, double> ratios;
     for (const auto& [lobes, chains] : classes_)
-      if (chains.rare >= least_part * least() * light_) ratios[lobes] = chains.found / chains.again;
+      if (chains.rare >= least_part * least() * light_ && chains.again <= most_again * chains.found)
+        ratios[lobes] = chains.found / chains.again;
     return ratios;
   }
 
