@@ -233,7 +233,7 @@ def test_both_programs_have_the_same_flags():
         for command in ([*PYMLT, "render"], [*binary])
     ]
     own = {"--bands", "--bits", "--cluster", "--denoise", "--fireflies", "--tonemap"}
-    own |= {"--frames", "--fps", "--shutter", "--skip"}  # --skip-existing
+    own |= {"--frames", "--fps", "--shutter", "--together", "--skip"}  # --skip-existing
     assert flags[0] - flags[1] == own
     assert flags[1] - flags[0] == {"--version"}
 

@@ -273,7 +273,7 @@ def test_merged_renders_have_the_mean_of_the_layers_and_their_errors(scene, coun
         ("path", {"light_layers": {"depth": "LE"}, "aovs": "depth"}, "two layers .* 'depth'"),
         ("path", {"light_layers": {"a": "L E"}}, "'a=L E' has a blank"),
         ("path", {"light_layers": {"a": 1}}, "should be a dict"),
-        ("path", {"light_layers": {f"a{i}": "LE" for i in range(33)}}, "more than 32 layers"),
+        ("path", {"light_layers": {f"a{i}": "LE" for i in range(64)}}, "more than 63 layers"),
         (mlt.BDPT(max_depth=3, techniques=True), {"light_groups": True}, "techniques.* excludes"),
     ],
 )
