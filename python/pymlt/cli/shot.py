@@ -32,9 +32,9 @@ def add_shot(command) -> None:
         "--frames",
         type=reader(parse_frames),
         metavar="FIRST:LAST",
-        help="render these frames of a shot, such as 1:24 or 1:24,31, each as a render of its own "
-        "with the same seed, to files such as shot.####.exr or shot.%%04d.exr; frame f is seen "
-        "from f / fps seconds of the scene's animations on",
+        help="render these frames of a shot, such as 1:24 or 1:24,31, to files such as "
+        "shot.####.exr or shot.%%04d.exr, with a film of them as shot.mp4; frame f is seen from "
+        "f / fps seconds of the scene's animations on",
     )
     command.add_argument("--fps", type=float, metavar="N", help="frames per second (24)")
     command.add_argument(

@@ -8,6 +8,7 @@ import os
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 from .. import _core
@@ -92,6 +93,19 @@ def frames_to_render(
 
 #: Bytes that a render of several frames may take, and the most frames.
 MOST_BYTES, MOST_TOGETHER = 4 * 2**30, 16
+#: Bytes of a pixel on the films of a layer: of chains and of samples 24 each, in 16 groups.
+BYTES_PER_PIXEL = 2 * 24 * 16
+
+#: Options that renders of several frames do not have, and what they are if they are not given.
+ALONE = {
+    "error": None,
+    "aovs": None,
+    "light_groups": False,
+    "light_layers": None,
+    "alpha": False,
+    "fireflies": "keep",
+    "denoise": False,
+}
 
 
 def frames_together(
@@ -107,20 +121,8 @@ def frames_together(
     if alone or json.loads(integrator.settings)["type"] != "mlt":
         return 1
     width, height = scene.info()["size"]
-    bytes_per_film = 768 * width * height
+    bytes_per_film = BYTES_PER_PIXEL * width * height
     return min(MOST_TOGETHER, max(1, MOST_BYTES // bytes_per_film - 1))
-
-
-#: Options that renders of several frames do not have, and what they are if they are not given.
-ALONE = {
-    "error": None,
-    "aovs": None,
-    "light_groups": False,
-    "light_layers": None,
-    "alpha": False,
-    "fireflies": "keep",
-    "denoise": False,
-}
 
 
 class Window:
@@ -145,9 +147,14 @@ class Window:
         self.job = Job(self.scene, self.integrator, options)._start()
         return self.job
 
+    @cached_property
+    def whole(self) -> Result:
+        """The result of the render, which has all its layers."""
+        return self.job.result()
+
     def result(self, place: int) -> Result:
         """That of the frame at this place."""
-        whole, count = self.job.result(), len(self.frames)
+        whole, count = self.whole, len(self.frames)
         if count == 1:
             return whole
         name = f"exposure.{place + 1}"
