@@ -17,9 +17,8 @@ void WaveNumbers::read(const Place& at, int begin, int count, double* x) const {
       seeds[i] = PixelSampler::seed_of_single(stream_[begin + first + i], at);
     scrambled_radical_inverse<vector>(&index_[begin + first], seeds, x + first);
   }
-  if (exposures_ == 1 || !PixelSampler::is_time(at)) return;
-  for (int i = 0; i < count; ++i)
-    x[i] = SampleIndex(0, exposure_[begin + i], exposures_).time(x[i]);
+  if (!PixelSampler::is_time(at)) return;
+  for (int i = 0; i < count; ++i) x[i] = exposure_.time(x[i]);
 }
 
 void WaveNumbers::read2(const Place& at, int begin, int count, double* x, double* y) const {

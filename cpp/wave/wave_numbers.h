@@ -12,12 +12,12 @@ class WaveNumbers {
     count_ = 0;
     next_ = {};
   }
+  /// Adds a sample; all are of one exposure.
   void add(uint64_t stream, const SampleIndex& index) {
     stream_[count_] = stream;
     key_[count_] = PixelSampler::key_of(stream, index.place);
-    exposure_[count_] = index.exposure;
-    exposures_ = index.exposures;
     index_[count_++] = index.place;
+    exposure_ = index;
   }
   int count() const { return count_; }
 
@@ -34,9 +34,9 @@ class WaveNumbers {
   void read2(const Place& at, int begin, int count, double* x, double* y) const;
   /// The number at a place of the i-th sample.
   double read(const Place& at, int i) const {
-    return at.stratified_single()
-               ? PixelSampler::single(stream_[i], {index_[i], exposure_[i], exposures_}, at)
-               : word(i, at.words);
+    if (!at.stratified_single()) return word(i, at.words);
+    const SampleIndex index(index_[i], exposure_.exposure, exposure_.exposures);
+    return PixelSampler::single(stream_[i], index, at);
   }
 
   /// Moves the sample at `from` to the i-th place.
@@ -44,7 +44,6 @@ class WaveNumbers {
     stream_[i] = stream_[from];
     key_[i] = key_[from];
     index_[i] = index_[from];
-    exposure_[i] = exposure_[from];
   }
 
  private:
@@ -55,8 +54,7 @@ class WaveNumbers {
   Place next_;
   Wave<uint64_t> stream_, key_;
   Wave<uint32_t> index_;
-  Wave<uint16_t> exposure_;
-  uint16_t exposures_ = 1;
+  SampleIndex exposure_ = 0;  ///< One of them, for the exposure of all.
 };
 
 }  // namespace mlt
