@@ -52,6 +52,7 @@ uint64_t paths_for(const Case& c, uint64_t paths) {
   if (c.scene == "fog") return (c.mutation == "multi_chain" ? 20 : 10) * paths;  // weights vary
   if (c.mutation == "multi_chain" || c.scene == "sun_caustic" || c.scene == "glass_torus")
     return 5 * paths;
+  if (c.scene == "openpbr" && c.mutation == "translucent") return 4 * paths;  // little light suits
   return c.mutation == "multiplexed" || c.mutation == "manifold" ? 2 * paths : paths;
 }
 
