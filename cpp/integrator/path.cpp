@@ -12,6 +12,7 @@ struct PathIntegrator : LayeredDefaults {
   static PathRules settings(Params& params) {
     PathRules rules = path_rules(params);
     rules.equiangular = params.boolean("equiangular");
+    rules.through_boundaries = params.boolean("through_boundaries");
     return rules;
   }
   static SampledSettings film(const PathRules&) { return camera_walks(); }
@@ -32,6 +33,9 @@ Plugin integrator_path() {
        {{"equiangular", ParamType::boolean, false,
          "In media, light is also gathered where a ray passes near a lamp (Kulla & Fajardo 2012). "
          "That pays where lamps stand in thin fog. Samples are then taken one by one."}},
+       {{"through_boundaries", ParamType::boolean, true,
+         "In media with rough boundaries that refract, such as wax and skin, light is also sampled "
+         "through these. Samples are then taken one by one."}},
        light_parameters()});
   schema.ignored = {"samples_per_pass", "block_size"};
   return make_plugin<SampledIntegrator<PathIntegrator>>(schema);

@@ -3,6 +3,7 @@
 
 #include "path/approach.h"
 #include "path/mis.h"
+#include "path/refracted_light.h"
 
 namespace mlt {
 
@@ -44,6 +45,7 @@ struct CameraWalk {
   double survival = 1;     ///< Probability of having survived Russian roulette.
   Spectrum likelihood{1};  ///< See Passage.
   Approaches* approaches = nullptr;  ///< If it has the technique of approach.h.
+  LegsInside* inside = nullptr;      ///< If it has that of refracted_light.h.
 
   MisExponent mis{Heuristic::power};  ///< For the two techniques.
 

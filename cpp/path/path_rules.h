@@ -11,9 +11,10 @@ struct PathRules {
   int min_depth = 1;   ///< Edges of the shortest path.
   int rr_depth = 5;    ///< From this depth on Russian roulette may end a walk.
   static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< As rr_depth: never.
-  bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
-  bool strict_normals = false;  ///< See `consistent_sides`.
-  bool equiangular = false;     ///< Path tracing in media has the technique of approach.h, too.
+  bool hide_emitters = false;       ///< Leave out lights that the camera sees directly.
+  bool strict_normals = false;      ///< See `consistent_sides`.
+  bool equiangular = false;         ///< Path tracing in media has the technique of approach.h, too.
+  bool through_boundaries = false;  ///< It has that of refracted_light.h, too.
   /// Whether waves (cpp/wave) make the paths where they can; else cpp/path, one by one.
   bool waves = true;
 

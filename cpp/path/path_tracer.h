@@ -3,42 +3,9 @@
 // to change first; `path` renders by wave/path_wave.h, which is tested against it (docs/waves.md).
 #pragma once
 
-#include "path/camera_walk.h"
-#include "path/mis.h"
-#include "path/path_rules.h"
+#include "path/light_techniques.h"
 
 namespace mlt {
-
-/// Finds the emission towards the camera where a ray ends: calls visit(emitter, x0,
-/// radiance) for the surface `at` that was hit, or (nullptr) for every light at infinity.
-template <class Visit>
-void visit_emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, Visit&& visit) {
-  const Vec3& w = ray.d;
-  if (at) {
-    const Emitter* emitter = scene.emitter(*at);
-    if (!emitter || emitter->delta_direction()) return;
-    const Spectrum radiance = emitter->eval(*at, -w);
-    if (!is_black(radiance)) visit(*emitter, *at, radiance);
-    return;
-  }
-  if (scene.backgrounds().empty()) return;
-  const SurfacePoint x0 = Scene::point_at_infinity(w, ray.wavelength);
-  for (const uint32_t index : scene.backgrounds()) {
-    const Emitter& emitter = *scene.emitters()[index];
-    visit(emitter, x0, emitter.eval(x0, -w));
-  }
-}
-
-/// The sum of that emission; `weight(emitter, x0)` is the MIS weight of having hit x0.
-template <class Weight>
-Spectrum emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, Weight&& weight) {
-  Spectrum sum(0);
-  visit_emission(scene, at, ray,
-                 [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& radiance) {
-                   sum += radiance * weight(emitter, x0);
-                 });
-  return sum;
-}
 
 /// One scattering event of a walk from the camera.
 struct ScatterSample {
@@ -92,30 +59,6 @@ bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoi
   return walker.scene.has_passages() ? go_through(walker, u_leg, hit, walk, at) : hit;
 }
 
-/// The weight of having hit x0 on a light from the last vertex.
-inline double hit_weight(const Scene& scene, const CameraWalk& walk, const Emitter& emitter,
-                         const SurfacePoint& x0) {
-  if (walk.delta) return 1;
-  const Vec3& w = walk.ray.d;
-  const double direct = direct_pdf(scene, emitter, walk.previous, x0, w);
-  if (!walk.approaches) return walk.mis.weight(walk.scatter_pdf, direct);
-  return walk.mis.weight(walk.scatter_pdf, direct,
-                         walk.approaches->previous.direct_pdf(scene, emitter, x0, w));
-}
-
-/// Adds the emission where the ray ends: at the surface `at`, or (nullptr) outside the scene.
-template <class Watcher = IgnorePaths>
-void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
-                Watcher&& watcher = Watcher()) {
-  const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& emitted) {
-    const Spectrum weighted = walk.throughput * hit_weight(scene, walk, emitter, x0);
-    const Color found = walk.seen(weighted * emitted);
-    walk.radiance += found * watcher.find(walk, found, walk.certainty);
-    watcher.hit(emitter, x0, found);
-  };
-  visit_emission(scene, at, walk.ray, take);
-}
-
 /// Russian roulette with the throughput, from rr_depth on; false ends the walk.
 inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& walk) {
   if (vanishes(walk.throughput)) return false;
@@ -147,6 +90,7 @@ bool go_on(const Walker& walker, const PathRules& rules, int depth, const Surfac
   if (!survive(rules, depth, u_roulette, walk)) return false;
   walk.previous = at.p;
   walk.ray = walker.leave(at, sample.w);
+  if (walk.inside) walk.inside->leave(walker, at);
   return true;
 }
 
@@ -159,60 +103,6 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
   return sample && go_on(walker, rules, depth, at, *sample, numbers.roulette, walk, watcher);
 }
 
-/// Adds the light of a light that u samples for that surface.
-template <class Watcher = IgnorePaths>
-void add_direct_light(const Walker& walker, const PathRules& rules, const SurfacePoint& at,
-                      const Vec3& u, CameraWalk& walk, Watcher&& watcher = Watcher()) {
-  const LightSample chosen = sample_direct_position(walker.scene, at, u);
-  const SurfacePoint& x0 = chosen.x0.at;
-  const double approached =
-      walk.approaches && chosen.x0.pdf > 0
-          ? walk.approaches->now.direct_pdf(walker.scene, *chosen.emitter, x0, direction(at, x0))
-          : 0;
-  const auto mis = [&](double light, double bsdf) {
-    return walk.mis.weight(light, bsdf, approached);
-  };
-  const DirectLight light =
-      direct_light(walker, at, -walk.ray.d, chosen, rules.strict_normals, mis, walk.likelihood);
-  const Color direct = walk.seen(walk.throughput * light.radiance, light.disperses);
-  walk.radiance += direct * watcher.find(walk, direct, 0);
-  watcher.connect(chosen, direct);
-}
-
-/// Adds light that is scattered on the leg where it is near to a light (approach.h).
-template <class Watcher = IgnorePaths>
-void add_approach(const Walker& walker, const PathRules& rules, const ApproachNumbers& u,
-                  CameraWalk& walk, Watcher&& watcher = Watcher()) {
-  const Scene& scene = walker.scene;
-  const Approach& approach = walk.approaches->now;
-  if (!approach.exists()) return;
-  const EmitterChoice choice = approach.choose(scene, u.light.choice);
-  const Equiangular distances = approach.distances(*choice.emitter);
-  const double t = distances.sample(u.distance), pdf = distances.pdf(t);
-  if (!(pdf > 0)) return;
-
-  const SurfacePoint at = approach.point(t);
-  const LightSample chosen = sample_direct_position(scene, at, choice, u.light.position);
-  const Passage flight = approach.flight(scene, t);
-  const Arrival arrival = scene.arrival(flight, at, approach.direction());
-  const double at_vertex = scene.emitter_probability_for(choice.index, at.p) / choice.probability;
-  const auto mis = [&](double light, double phase) {
-    return walk.mis.weight(light * (pdf / arrival.flown()), light * at_vertex, phase);
-  };
-  const DirectLight light = direct_light(walker, at, -approach.direction(), chosen,
-                                         rules.strict_normals, mis, arrival.next_likelihood());
-  const Spectrum throughput = approach.throughput() * flight.transmittance / pdf;
-  const Color found = walk.seen(throughput * light.radiance, light.disperses);
-  walk.radiance += found * watcher.find(walk, found, 0);
-  watcher.connect_between(at, chosen, found);
-}
-
-/// Whether lights are sampled for the depth-th vertex after the lens.
-inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int depth,
-                               const SurfacePoint& at) {
-  return BsdfAt(scene, at).has_smooth() && rules.wants(depth + 1);
-}
-
 /// The radiance from the scene along the ray of a walk, as a film records it. Every vertex draws
 /// the same number of random numbers, so that a small change of the numbers is a small change of
 /// the path.
@@ -222,9 +112,12 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
   const Walker walker{scene, walk.ray.time, rays};
   std::optional<Approaches> approaches;
   if (rules.equiangular && scene.has_media()) walk.approaches = &approaches.emplace();
+  std::optional<LegsInside> inside;
+  if (rules.through_boundaries && RefractedLight::serves(scene)) walk.inside = &inside.emplace();
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
     const bool hit = arrive(walker, sampler, walk, at);
+    if (walk.inside && hit) walk.inside->arrive(at, walk.ray.d, walk.scatter_pdf);
     if (rules.wants(depth)) find_light(scene, walk, hit ? &at : nullptr, watcher);
     if (depth == rules.most_edges()) break;
     const bool goes_on = hit && consistent_sides(at, -walk.ray.d, rules.strict_normals);
@@ -237,8 +130,8 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
     if (!goes_on) break;
 
     watcher.arrive(at);
-    if (wants_direct_light(scene, rules, depth, at))
-      add_direct_light(walker, rules, at, numbers.for_light(), walk, watcher);
+    const StepNumbers refracted = walk.inside ? StepNumbers::draw(sampler) : StepNumbers();
+    add_sampled_light(walker, rules, depth, at, numbers.for_light(), refracted, walk, watcher);
     if (!scatter(walker, rules, depth, at, numbers, walk, watcher)) break;
   }
   return walk.radiance;

@@ -58,7 +58,7 @@ struct ApproachNumbersOf {
   }
 };
 
-/// A vertex of a subpath, where the walk goes on.
+/// A vertex of a subpath, where the walk goes on, or a direction by refracted_light.h.
 template <class Pair, class Single = Pair>
 struct StepNumbersOf {
   Pair direction;

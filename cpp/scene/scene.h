@@ -117,6 +117,8 @@ class Scene {
   /// Whether walks may stop in a medium whose extinction differs between channels, so that their
   /// likelihood changes on the way.
   bool has_coloured_media() const { return has_coloured_media_; }
+  /// Whether light may be scattered through the boundary of a medium in which it is scattered on.
+  bool has_rough_boundaries() const { return has_rough_boundaries_; }
   /// The light along w that goes straight through the surface. Walks stop at every second surface
   /// that emits, to find its light, even if nothing is scattered there.
   Passage passage(const SurfacePoint& at, const Vec3& w) const;
@@ -220,6 +222,7 @@ class Scene {
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
   bool has_passages_ = false, has_media_ = false, has_coloured_media_ = false;
+  bool has_rough_boundaries_ = false;
   Media media_;
   MediumIndex outside_ = no_medium;           ///< Where no boundary is met.
   std::vector<const Emitter*> media_lights_;  ///< One for each medium: its light, or nullptr.

@@ -21,6 +21,7 @@ class PathSampleWave {
                                                       WeightsAt weights = nullptr) {
     if (!rules.waves || scene.camera().clips_far()) return nullptr;
     if (rules.equiangular && scene.has_media()) return nullptr;
+    if (rules.through_boundaries && RefractedLight::serves(scene)) return nullptr;
     return std::make_unique<PathSampleWave>(scene, rules, heuristic, std::move(weights));
   }
   PathSampleWave(const Scene& scene, const PathRules& rules, Heuristic heuristic,

@@ -87,6 +87,8 @@ class Bsdf : public Object {
 
   /// Whether light can reach the other side of the surface.
   virtual bool has_transmission() const { return false; }
+  /// Whether a lobe that is not a delta may.
+  bool scatters_through() const { return has_smooth() && has_transmission(); }
 
   /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not
   /// refract.

@@ -43,12 +43,23 @@ bool Scene::may_cross_boundaries(const Emitter& light, size_t grouped) const {
   return false;
 }
 
+namespace {
+
+bool is_rough_boundary(const ShapePtr& shape) {
+  const auto& [interior, exterior] = shape->media();
+  const auto scatters = [](const MediumPtr& medium) { return medium && medium->scatters(); };
+  return (scatters(interior) || scatters(exterior)) && shape->bsdf().scatters_through();
+}
+
+}  // namespace
+
 void Scene::find_media(size_t grouped) {
   media_.add(shapes_, solids_.shapes());
   for (const EmitterPtr& light : emitters_) media_.add(light->medium());
   const MediumIndex declared = media_.add(camera_->medium());
   has_media_ = !media_.empty();
   has_coloured_media_ = media_.any_coloured();
+  has_rough_boundaries_ = std::any_of(shapes_.begin(), shapes_.end(), is_rough_boundary);
   if (!has_media_) return;
   const double time = camera_->time(0.5);
   const Vec2 middle(0.5);

@@ -708,6 +708,9 @@ class Path(Integrator):
     equiangular : boolean, default False
         In media, light is also gathered where a ray passes near a lamp (Kulla & Fajardo 2012).
         That pays where lamps stand in thin fog. Samples are then taken one by one.
+    through_boundaries : boolean, default True
+        In media with rough boundaries that refract, such as wax and skin, light is also sampled
+        through these. Samples are then taken one by one.
     light_groups : boolean, default False
         Keep the light of each lamp as a layer: `light.` with its id. They add up to the image,
         and each has a layer of its error, such as `error.light.lamp`.
@@ -727,6 +730,7 @@ class Path(Integrator):
     strict_normals: bool
     waves: bool
     equiangular: bool
+    through_boundaries: bool
     light_groups: bool
     exposure_layers: bool
     light_layers: str
@@ -739,6 +743,7 @@ class Path(Integrator):
         strict_normals: bool = False,
         waves: bool = True,
         equiangular: bool = False,
+        through_boundaries: bool = True,
         light_groups: bool = False,
         exposure_layers: bool = False,
         light_layers: str = "",

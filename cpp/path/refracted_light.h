@@ -1,0 +1,138 @@
+// A technique of path tracing for light that enters a medium through a rough boundary, as of wax or
+// skin: next-event estimation through one refraction. For a vertex x in the medium a position z on
+// a light is sampled as for light that comes straight. Where light from z would enter if the
+// boundary were smooth, a direction is sampled in which the boundary scatters this light; a ray
+// from x against it finds the vertex y, which is connected with z.
+//
+// A smooth boundary asks for the exact y (Walter et al. 2009, "Single scattering in refractive
+// media with triangle mesh boundaries"). A rough one sends light to x from all around it, so that a
+// few steps towards it do, and the density is that of the rough scattering: nothing is solved.
+#pragma once
+
+#include "math/fresnel.h"
+#include "path/direct_light.h"
+
+namespace mlt {
+
+class RefractedLight {
+ public:
+  /// Whether light is sampled so. Lights at infinity that can be hit are large, and walks hit them.
+  static bool serves(const Emitter& light) { return !light.infinite() || light.delta_direction(); }
+  static bool serves(const Scene& scene) {
+    const auto& lights = scene.emitters();
+    return scene.has_rough_boundaries() &&
+           std::any_of(lights.begin(), lights.end(), [](const auto& it) { return serves(*it); });
+  }
+  /// Light from z for a point x in a medium.
+  RefractedLight(const Walker& walker, const SurfacePoint& x, const SurfacePoint& z)
+      : walker_(&walker), x_(&x), z_(&z), w_(direction(x, z)), exists_(meet(w_)) {
+    if (!exists_) return;
+    Passage leg;
+    fly(scene().media()[x.medium], walker.leave(x, w_), length(y_.p - x.p), leg);
+    share_ = std::min(1.0, most_share * mean(leg.transmittance));
+  }
+
+  /// Whether a rough boundary lies between them, so that no light goes straight.
+  bool exists() const { return exists_; }
+  struct Direction {
+    Vec3 w;      ///< From x.
+    double pdf;  ///< In solid angle.
+  };
+  /// Samples a direction; often none where the boundary is far away.
+  std::optional<Direction> sample(const StepNumbers& u) {
+    if (!(u.roulette < share_)) return std::nullopt;
+    come_closer();
+    const auto scattered = BsdfAt(scene(), y_).sample(to_light(), u.for_scattering());
+    if (!scattered || scattered->lobe != Lobe::smooth) return std::nullopt;
+    return Direction{-scattered->w, share_ * scattering_pdf(-scattered->w)};
+  }
+  double pdf(const Vec3& w) {
+    if (!exists_) return 0;
+    come_closer();
+    return share_ * scattering_pdf(w);
+  }
+
+ private:
+  static constexpr int most_steps = 2;
+  static constexpr double least_step = 0.05;  ///< In radians.
+  static constexpr double most_share = 4;     ///< Times the transmittance.
+
+  const Scene& scene() const { return walker_->scene; }
+  Vec3 to_light() const { return direction(y_, *z_); }
+  double scattering_pdf(const Vec3& w) const {
+    return BsdfAt(scene(), y_).scattering(-w, to_light(), Lobe::smooth).pdf_from_camera;
+  }
+
+  /// Moves y to where the ray from x along w meets a rough boundary; false if it meets none before
+  /// the light.
+  bool meet(const Vec3& w) {
+    SurfacePoint y;
+    if (!walker_->intersect(walker_->leave(*x_, w), y)) return false;
+    const bool between = dot(direction(y, *z_), y.ng) * dot(w, y.ng) > 0;
+    if (!between || !scene().bsdf(y).scatters_through() || !scene().passage(y, w).is_blocked())
+      return false;
+    y_ = y;
+    return true;
+  }
+  /// Moves y towards where a smooth boundary would refract the light to x.
+  void come_closer() {
+    for (int step = 0; step < most_steps; ++step) {
+      const Vec3 next = against_refraction();
+      if (length_squared(next - w_) < sqr(least_step) || !meet(next)) return;
+      w_ = next;
+    }
+  }
+  /// The direction against that in which light at y is refracted into the medium.
+  Vec3 against_refraction() const {
+    const Vec3 wz = y_.shading.to_local(to_light());
+    const double ratio = BsdfAt(scene(), y_).relative_eta(wz);
+    const Fresnel fresnel = fresnel_dielectric(wz.z, wz.z >= 0 ? 1 / ratio : ratio);
+    return -y_.shading.to_world(refract(wz, fresnel.cos_t, fresnel.eta_ti));
+  }
+
+  const Walker* walker_;
+  const SurfacePoint *x_, *z_;
+  Vec3 w_;          ///< From x to y.
+  SurfacePoint y_;  ///< On the boundary.
+  bool exists_;
+  double share_ = 0;  ///< The probability with which a direction is sampled.
+};
+
+/// A leg of a walk from a vertex x in a medium to a surface.
+struct LegInside {
+  const Walker* walker = nullptr;
+  std::optional<SurfacePoint> x;  ///< None if there is no such leg.
+  Vec3 w{0};
+  double pdf = 0;  ///< The density in solid angle with which the walk has come to its end.
+
+  /// The density in solid angle with which the technique makes the direction wz from the end y of
+  /// the leg to z, over the probability of coming there by the walk.
+  double direct_pdf(const Emitter& emitter, const Vec3& y, const SurfacePoint& z,
+                    const Vec3& wz) const {
+    if (!x || !(pdf > 0) || !RefractedLight::serves(emitter)) return 0;
+    const double entering = RefractedLight(*walker, *x, z).pdf(w);
+    if (!(entering > 0)) return 0;
+    const double choice = walker->scene.emitter_probability_for(emitter.index(), x->p);
+    return choice * emitter.pdf_direct(x->p, z) * per_solid_angle(y, z, wz) * (entering / pdf);
+  }
+};
+
+/// The last two legs of a walk that has the technique.
+struct LegsInside {
+  LegInside now, previous;
+
+  /// Begins a leg at x.
+  void leave(const Walker& walker, const SurfacePoint& x) {
+    previous = now;
+    now = {};
+    if (x.in_medium()) now = {&walker, x};
+  }
+  /// Ends it at y.
+  void arrive(const SurfacePoint& y, const Vec3& w, double pdf) {
+    if (y.in_medium()) now.x.reset();
+    now.w = w;
+    now.pdf = pdf;
+  }
+};
+
+}  // namespace mlt
