@@ -99,9 +99,12 @@ std::optional<double> relative_error(const PyJob& job, int layer) {
   }));
 }
 
-std::optional<double> flicker(const PyJob& job, const PyJob& before, int layer, int layer_before) {
+std::optional<double> flicker(const PyJob& job, const PyJob& before, int layer, int layer_before,
+                              float factor_before) {
   return known(without_gil([&] {
-    return error_of_change({&before.rendering(), layer_before}, {&job.rendering(), layer}).value;
+    return error_of_change({&before.rendering(), layer_before, factor_before},
+                           {&job.rendering(), layer})
+        .value;
   }));
 }
 
@@ -190,9 +193,9 @@ void bind_render(py::module_& m) {
       .def("relative_error", &relative_error, py::arg("layer") = Rendering::all_light,
            "The relative error so far, of a layer of light if asked, or None if nothing is known.")
       .def("flicker", &flicker, py::arg("before"), py::arg("layer") = Rendering::all_light,
-           py::arg("layer_before") = Rendering::all_light,
+           py::arg("layer_before") = Rendering::all_light, py::arg("factor_before") = 1.0f,
            "After the end of both: the relative error of the change from the image of another job, "
-           "or None if nothing is known; of layers of light, if asked.")
+           "times a factor, or None if nothing is known; of layers of light, if asked.")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def("light", &light, "The light of each lamp so far, by the names of these layers.")
       .def_property_readonly("light_groups", &light_groups)

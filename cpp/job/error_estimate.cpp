@@ -73,12 +73,12 @@ struct Groups {
   std::vector<float> remaining;
 };
 
-/// How the group of a render differs from that of another one, with the weight that 1 / variance of
-/// the difference has if it is the weight of each that 1 / variance is in proportion to.
-GroupImage difference(const GroupImage& from, GroupImage to) {
+/// How the group of a render differs from `factor` times that of another one. Weights are in
+/// proportion to 1 / variance, and so is that of the difference.
+GroupImage difference(const GroupImage& from, float factor, GroupImage to) {
   if (from.weight == 0 || to.weight == 0) return {};
-  for (size_t i = 0; i < to.image.data.size(); ++i) to.image.data[i] -= from.image.data[i];
-  to.weight = 1 / (1 / from.weight + 1 / to.weight);
+  for (size_t i = 0; i < to.image.data.size(); ++i) to.image.data[i] -= factor * from.image.data[i];
+  to.weight = 1 / (sqr(factor) / from.weight + 1 / to.weight);
   return to;
 }
 
@@ -89,7 +89,9 @@ struct GroupsOfRendering {
     BlocksOfSequence sequence;
     for (int g = 0; g < Rendering::group_count; ++g) {
       GroupImage group = rendering.group(g, layer);
-      if (before) group = difference(before->rendering->group(g, before->layer), std::move(group));
+      if (before)
+        group = difference(before->rendering->group(g, before->layer), before->factor,
+                           std::move(group));
       if (group.weight == 0) continue;
       size = Vec2i(group.image.width, group.image.height);
       grid = block_grid(group.image);
@@ -188,7 +190,7 @@ class Total {
 std::vector<GroupsOfRendering> all_groups(const ImageOf& image,
                                           const std::optional<ImageOf>& before = std::nullopt) {
   const auto part = [](const ImageOf& of, size_t i) {
-    return ImageOf{of.rendering->parts()[i], of.layer};
+    return ImageOf{of.rendering->parts()[i], of.layer, of.factor};
   };
   std::vector<GroupsOfRendering> all;
   all.emplace_back(*image.rendering, image.layer, before);
@@ -266,8 +268,10 @@ RelativeError error_of_change(const ImageOf& before, const ImageOf& after) {
   Total pixels(pixels_of(seen));
   pixels.take_errors(pixels_of(changes));
   for (const ImageOf& one : {before, after})
-    if (const Image common = one.rendering->common_error(one.layer); !common.empty())
+    if (Image common = one.rendering->common_error(one.layer); !common.empty()) {
+      for (float& error : common.data) error *= one.factor;
       pixels.add_error(with_luminance(common));
+    }
   return pixels.relative();
 }
 

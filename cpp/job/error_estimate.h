@@ -52,12 +52,13 @@ ErrorEstimate estimate_error(const Rendering& rendering, int layer = Rendering::
 struct ImageOf {
   const Rendering* rendering;
   int layer = Rendering::all_light;
+  float factor = 1;  ///< By which the image before a change is multiplied.
 };
 
-/// The error of the change from one image to another of the same size, relative to the second one,
-/// by renderings with the same algorithm: from group to group, so that what both have in common by
-/// their random numbers counts for nothing. The errors that are common to all groups count as if
-/// they were independent.
+/// The error of the change from one image, times its factor, to another of the same size, relative
+/// to the second one, by renderings with the same algorithm: from group to group, so that what both
+/// have in common by their random numbers counts for nothing. The errors that are common to all
+/// groups count as if they were independent.
 RelativeError error_of_change(const ImageOf& before, const ImageOf& after);
 
 /// The estimate as layers of the image: "error" for pixels and "error_block", where each pixel has

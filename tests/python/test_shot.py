@@ -11,14 +11,19 @@ from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
 from pymlt.pictures.luminance import target_luminance
-from pymlt.rendering.frames import check_pattern, file_of, parse_frames, scene_at, timing, windows
+from pymlt.rendering.frames import check_pattern, file_of, parse_frames, runs, scene_at, timing
+from pymlt.rendering.windows import windows
 
 
-def moving(last: float = 1) -> dict:
-    """The ball moves to the right until this time."""
+def moving(last: float = 1, begin: float = 0) -> dict:
+    """The ball moves to the right from one time to another."""
     scene = tiny.scene()
     there = mlt.Transform().translate(1, 0, 0)
-    scene["ball"]["to_world"] = {"type": "animation", "0": mlt.Transform(), str(last): there}
+    scene["ball"]["to_world"] = {
+        "type": "animation",
+        str(begin): mlt.Transform(),
+        str(last): there,
+    }
     return scene
 
 
@@ -152,8 +157,58 @@ def test_a_shot_has_no_checkpoint(tmp_path):
 # ---- frames that one render has
 
 
-def test_windows_end_at_cuts_and_when_they_are_full():
-    assert windows([1, 2, 3, 4, 5, 9, 10], 3) == [[1, 2, 3], [4, 5], [9, 10]]
+def test_runs_end_at_cuts():
+    scene = mlt.load_dict(moving())
+    found = runs(scene, timing(100, 0.5), [1, 2, 3, 9, 10])
+    assert found == [[[1], [2], [3]], [[9], [10]]]
+
+
+def test_frames_that_show_the_same_are_one_moment():
+    """Up to 0.5 s the ball moves, from frame 2 on to frame 6 of 12 per second; it stands in 6."""
+    scene = mlt.load_dict(moving(0.5, begin=0.2))
+    assert runs(scene, timing(12, 0.5), list(range(10))) == [
+        [[0, 1], [2], [3], [4], [5], [6, 7, 8, 9]]
+    ]
+
+
+@pytest.mark.parametrize("most", [2, 3, 4, 5, 16, 64])
+def test_windows_share_frames_whose_weights_add_up(most):
+    for count in range(1, 100):
+        run = list(range(7, 7 + count))
+        total = dict.fromkeys(run, 0.0)
+        for window in windows(run, most):
+            assert len(window.frames) <= most
+            assert len(window.frames) >= (most // 2 if count > most else 1)
+            for frame, weight in zip(window.frames, window.weights, strict=True):
+                total[frame] += weight
+        assert list(total) == run
+        assert list(total.values()) == pytest.approx([1.0] * count)
+
+
+def test_errors_of_windows_that_fade_are_claimed(tmp_path):
+    """As the spread of 16 seeds, of each frame and of each change. Frame 3 is shared."""
+    scene = moving()
+    scene["ball"]["bsdf"] = {"type": "ref", "id": "clay"}
+    settings = {"frames": "1:6", "output": tmp_path / "#.exr", "fps": 10, "together": 4, "spp": 64}
+    seen, errors, flickers = [], [], []
+    for seed in range(16):
+        shot = mlt.render_shot(scene, mlt.Path(max_depth=2), seed=100 * seed, **settings)
+        seen.append([target_luminance(mlt.read_image(f.files[0])) for f in shot.frames])
+        errors.append([f.stats["error"] for f in shot.frames])
+        flickers.append([f.flicker for f in shot.frames[1:]])
+    light = np.mean(seen, axis=0)
+    floor = 0.01 * light.mean(axis=(1, 2), keepdims=True) ** 2
+
+    def relative(images, light) -> np.ndarray:
+        spread = np.var(images, axis=0, ddof=1) / (light**2 + floor[-len(light) :])
+        return np.sqrt(spread.mean(axis=(1, 2)))
+
+    assert np.sqrt(np.mean(np.square(errors), axis=0)) == pytest.approx(
+        relative(seen, light), rel=0.15
+    )
+    assert np.sqrt(np.mean(np.square(flickers), axis=0)) == pytest.approx(
+        relative(np.diff(seen, axis=1), light[1:]), rel=0.15
+    )
 
 
 def shining() -> dict:

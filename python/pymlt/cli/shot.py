@@ -109,7 +109,7 @@ def run_shot(args) -> int:
             when,
             to_come,
             options,
-            lambda job: wait(job, signals, args.quiet),
+            lambda job, _: wait(job, signals, args.quiet),
             args.together,
         ):
             files, saved = save(one_image(args, number), result)

@@ -7,7 +7,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .. import _core
 from .options import integer, number
@@ -117,21 +117,49 @@ def scene_at(scene: _core.Scene, timing: Timing, window: list[int]) -> _core.Sce
     return scene.updated(values)
 
 
-def windows(frames: list[int], most: int) -> list[list[int]]:
-    """The frames in runs of such as follow each other, of this many at most."""
-    runs: list[list[int]] = []
+def runs(scene: _core.Scene, timing: Timing, frames: list[int]) -> list[list[list[int]]]:
+    """The frames in runs without a cut, each a list of moments: of the frames that show the same.
+
+    Within a run each moment follows at once on the one before it, so that only the first and the
+    last one may have several frames.
+    """
+    found: list[list[list[int]]] = []
     for frame in frames:
-        if runs and len(runs[-1]) < most and runs[-1][-1] == frame - 1:
-            runs[-1].append(frame)
+        if not found or found[-1][-1][-1] != frame - 1:
+            found.append([[frame]])
+        elif is_still(scene, timing, frame - 1, frame):
+            found[-1][-1].append(frame)
+        elif len(found[-1]) > 1 and len(found[-1][-1]) > 1:
+            found.append([[frame]])
         else:
-            runs.append([frame])
-    return runs
+            found[-1].append([frame])
+    return found
+
+
+def is_still(scene: _core.Scene, timing: Timing, first: int, last: int) -> bool:
+    """Whether nothing moves from the first of these frames to the last."""
+    begin, end = timing.times(first)[0], timing.times(last)[1]
+    return all(is_constant(keys, begin, end) for keys in animations(scene))
+
+
+def animations(scene: _core.Scene) -> list[dict[float, Any]]:
+    """The keys of all that moves, by their times."""
+    return [dict(v) for v in scene.parameters().values() if isinstance(v, dict) and len(v) > 1]
+
+
+def is_constant(keys: dict[float, Any], begin: float, end: float) -> bool:
+    """Whether what is linear between the keys stays the same from one time to another."""
+    times = sorted(keys)
+    first = max((t for t in times if t <= begin), default=times[0])
+    last = min((t for t in times if t >= end), default=times[-1])
+    seen = [keys[t] for t in times if first <= t <= last]
+    return all(value == seen[0] for value in seen)
 
 
 def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str | None:
     """The warning for a shot in which nothing moves."""
     first, last = timing.times(min(frames))[0], timing.times(max(frames))[1]
-    keys = [list(v) for v in scene.parameters().values() if isinstance(v, dict) and len(v) > 1]
+    keys = animations(scene)
     if not keys:
         return "nothing in the scene has an animation: all frames show the same"
     if any(min(times) < last and max(times) > first for times in keys):

@@ -2,37 +2,26 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 import warnings
+from collections import defaultdict
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, field
 from typing import Any
 
 from .. import _core
 from ..algorithms.integrator import IntegratorLike, as_integrator
 from ..formats.loading import SceneLike, SensorLike, as_scene
 from .bands import finish
-from .frames import (
-    Frames,
-    Timing,
-    check_pattern,
-    file_of,
-    parse_frames,
-    scene_at,
-    stands_still,
-    windows,
-)
+from .frames import Frames, Timing, check_pattern, file_of, parse_frames, runs, stands_still
 from .frames import timing as checked_timing
 from .job import Job
-from .options import RenderOptions, integer
+from .options import RenderOptions
 from .progress import progress_bar
 from .result import Result
 from .stats import Stats
-
-IntegratorOf = Callable[[_core.Scene], _core.Integrator]
+from .windows import IntegratorOf, Window, WindowRender, faded, frames_together, whole, windows
 
 
 @dataclass
@@ -80,6 +69,12 @@ def _root_mean_square(values) -> float | None:
     return math.sqrt(sum(v * v for v in known) / len(known)) if known else None
 
 
+def root_of_squares(errors: list[float | None]) -> float | None:
+    """The error of a sum of what is independent; None if one is not known, or there is none."""
+    known = [error for error in errors if error is not None]
+    return math.hypot(*known) if known and len(known) == len(errors) else None
+
+
 def frames_to_render(
     frames: list[int], patterns: list[str], skip_existing: bool
 ) -> tuple[list[int], list[int]]:
@@ -91,99 +86,8 @@ def frames_to_render(
     return [f for f in frames if not exists(f)], [f for f in frames if exists(f)]
 
 
-#: Bytes that a render of several frames may take, and the most frames.
-MOST_BYTES, MOST_TOGETHER = 4 * 2**30, 16
-#: Bytes of a pixel on the films of a layer: of chains and of samples 24 each, in 16 groups.
-BYTES_PER_PIXEL = 2 * 24 * 16
-
-#: Options that renders of several frames do not have, and what they are if they are not given.
-ALONE = {
-    "error": None,
-    "aovs": None,
-    "light_groups": False,
-    "light_layers": None,
-    "alpha": False,
-    "fireflies": "keep",
-    "denoise": False,
-}
-
-
-def frames_together(
-    scene: _core.Scene, integrator: _core.Integrator, options: RenderOptions, together: int | None
-) -> int:
-    """How many frames one render has. Raises UsageError."""
-    alone = [name for name, usual in ALONE.items() if getattr(options, name) != usual]
-    if together is not None:
-        together = max(1, integer("together", together, 64))
-        if together > 1 and alone:
-            raise _core.UsageError(f"frames that are rendered together have no {alone[0]}")
-        return together
-    if alone or json.loads(integrator.settings)["type"] != "mlt":
-        return 1
-    width, height = scene.info()["size"]
-    bytes_per_film = BYTES_PER_PIXEL * width * height
-    return min(MOST_TOGETHER, max(1, MOST_BYTES // bytes_per_film - 1))
-
-
-class Window:
-    """The render of some frames that follow each other."""
-
-    def __init__(
-        self, scene: _core.Scene, integrator_of: IntegratorOf, timing: Timing, frames: list[int]
-    ):
-        self.frames = frames
-        self.scene = scene_at(scene, timing, frames)
-        self.integrator = integrator_of(self.scene)
-        if len(frames) > 1:
-            self.integrator = _core.with_light_layers(self.integrator, False, [], exposures=True)
-
-    def start(self, options: RenderOptions) -> Job:
-        count = len(self.frames)
-        if count > 1:
-            spp, time = options.spp, options.time
-            if spp is None and time is None:
-                spp = self.scene.info()["sample_count"]
-            options = replace(options, spp=spp and spp * count, time=time and time * count)
-        self.job = Job(self.scene, self.integrator, options)._start()
-        return self.job
-
-    @cached_property
-    def whole(self) -> Result:
-        """The result of the render, which has all its layers."""
-        return self.job.result()
-
-    def result(self, place: int) -> Result:
-        """That of the frame at this place."""
-        whole, count = self.whole, len(self.frames)
-        if count == 1:
-            return whole
-        name = f"exposure.{place + 1}"
-        error = whole.layers.get("error." + name)
-        stats = {k: v for k, v in whole.stats.items() if k not in OF_WHOLE_IMAGES}
-        stats |= {"exposures": count, "error": self.job._job.relative_error(place)}
-        return replace(
-            whole,
-            image=whole.layers[name] * count,
-            layers={} if error is None else {"error": error * count},
-            stats=stats,
-        )
-
-    def flicker(self, place: int, before: Window | None) -> float | None:
-        """That of the frame at this place, if it follows another one, or the window before."""
-        if place > 0:
-            return self.job._job.flicker(self.job._job, place, place - 1)
-        count = len(self.frames)
-        if before is None or before.frames[-1] != self.frames[0] - 1:
-            return None
-        if len(before.frames) != count:
-            return None  # their images have other scales
-        if count == 1:
-            return self.job.flicker(before.job)
-        return self.job._job.flicker(before.job._job, 0, count - 1)
-
-
-#: Statistics of the image of all frames of a window together.
-OF_WHOLE_IMAGES = {"block_error", "pixels_carrying_error", "disagreements"}
+Rendered = Iterator[tuple[int, Result, float | None]]
+Wait = Callable[[Job, float], object]
 
 
 def render_frames(
@@ -192,23 +96,60 @@ def render_frames(
     timing: Timing,
     frames: list[int],
     options: RenderOptions,
-    wait: Callable[[Job], object],
+    wait: Wait,
     together: int | None,
-) -> Iterator[tuple[int, Result, float | None]]:
+) -> Rendered:
     """Each frame's number, the result of its render, and its flicker. None after a render that was
-    cancelled, whose frames are not among them."""
+    cancelled, whose frames are not among them. `wait` waits for a render of so many frames."""
     if not frames:
         return
     most = frames_together(scene, integrator_of(scene), options, together)
-    before: Window | None = None
-    for run in windows(frames, most):
-        window = Window(scene, integrator_of, timing, run)
-        finish(window.start(options), wait)
-        if window.job.cancelled:
+    for run in runs(scene, timing, frames):
+        shown = [run[0][-1], *(moment[0] for moment in run[1:])]
+
+        def start(window: Window) -> WindowRender:
+            render = WindowRender(scene, integrator_of, timing, window)
+            frames = sum(window.weights)
+            finish(render.start(options), lambda job: wait(job, frames))
+            return render
+
+        rendered = alone(start, shown) if most == 1 else together_in(start, windows(shown, most))
+        for moment, (_, result, flicker) in zip(run, rendered, strict=False):
+            yield moment[0], result, flicker
+            yield from ((frame, result, 0.0) for frame in moment[1:])
+
+
+def alone(start: Callable[[Window], WindowRender], frames: list[int]) -> Rendered:
+    before: WindowRender | None = None
+    for frame in frames:
+        render = start(whole([frame]))
+        if render.job.cancelled:
             return
-        for place, frame in enumerate(run):
-            yield frame, window.result(place), window.flicker(place, before)
-        before = window
+        yield frame, render.result(0), None if before is None else render.job.flicker(before.job)
+        before = render
+
+
+def together_in(start: Callable[[Window], WindowRender], shared: list[Window]) -> Rendered:
+    """The frames of windows that follow each other, each when all of its renders have ended."""
+    first, last = shared[0].frames[0], shared[-1].frames[-1]
+    fading: dict[int, Result] = {}
+    changes: defaultdict[int, list[float | None]] = defaultdict(list)
+    for window in shared:
+        render = start(window)
+        if render.job.cancelled:
+            return
+        for place in range(len(window.frames) + 1):
+            frame = window.frames[0] + place
+            if first < frame <= last:
+                changes[frame].append(render.change(place))
+        for place, frame in enumerate(window.frames):
+            result, weight = render.result(place), window.weights[place]
+            if frame in fading:
+                result = faded(fading.pop(frame), result, weight)
+            elif weight < 1:
+                fading[frame] = result
+                continue
+            yield frame, result, root_of_squares(changes[frame])
 
 
 def render_shot(
@@ -258,9 +199,9 @@ def render_shot(
     shot = Shot(skipped=skipped)
     with progress_bar(progress) as show:
 
-        def wait(job: Job) -> None:
-            ended, own = len(shot.frames), max(1, len(job.light_groups))
-            job.wait(progress=lambda share: show((ended + own * share) / len(to_come), {}))
+        def wait(job: Job, frames: float) -> None:
+            ended = len(shot.frames)
+            job.wait(progress=lambda share: show((ended + frames * share) / len(to_come), {}))
 
         for frame, result, flicker in render_frames(
             scene,
