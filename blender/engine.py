@@ -42,13 +42,12 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
         if depsgraph.scene.camera is None:
             raise mlt.SceneError("the scene has no camera")
         passes.add(self)
-        together = shot.known(self, depsgraph)
+        made = self.read(depsgraph)
+        together = shot.together(self, depsgraph, made.scene)
         if together is None:
-            made = self.read(depsgraph)
-            together = shot.begun(self, depsgraph, made.scene)
-            if together is None:
-                self._render_alone(depsgraph, made.scene)
-                return
+            self._render_alone(depsgraph, made.scene)
+            return
+        if not together.has_begun:
             self._render_first(together, depsgraph.view_layer.name)
         if not self.test_break():
             found = together.result(depsgraph.scene.frame_current)

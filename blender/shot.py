@@ -19,17 +19,25 @@ class Shot:
         self._rendered: dict[str, Together] = {}  #: what was rendered last, by view layer
         self._told: set[str] = set()
 
-    def known(self, depsgraph) -> Together | None:
-        """The render that has the present frame; what others have had is forgotten."""
-        layer = depsgraph.view_layer.name
-        found = self._rendered.get(layer)
-        if found and depsgraph.scene.frame_current in found.frames:
-            return found
-        self._rendered.pop(layer, None)
-        return None
+    def together(self, engine, depsgraph, described: dict) -> Together | None:
+        """The render of the present frame with others; None if it is to be rendered alone."""
+        layer, frame = depsgraph.view_layer.name, depsgraph.scene.frame_current
+        found = self._rendered.pop(layer, None)
+        if found and frame in found.frames:
+            if found.shows(frame, described):
+                self._rendered[layer] = found
+                return found
+            change = "things are not where they were when looked at before"
+            self._tell(engine, change, frame, "each frame is rendered alone from there on")
+            self._most = 1
+        found = None  # so that no two renders are in memory
+        found = self._ahead(engine, depsgraph, described)
+        if found:
+            self._rendered[layer] = found
+        return found
 
-    def begun(self, engine, depsgraph, described: dict) -> Together | None:
-        """The render of this frame and some that follow; None if this one is rendered alone."""
+    def _ahead(self, engine, depsgraph, described: dict) -> Together | None:
+        """A render of this frame and some that follow, which are looked at."""
         scene, joined = depsgraph.scene, Joined(described)
         frames = [scene.frame_current]
         coming = frames_to_come(scene)[: self._limit(scene, described["camera"]) - 1]
@@ -42,11 +50,7 @@ class Shot:
         if coming:
             engine.frame_set(frames[0], subframe=0)
         frames = frames[: power_of_two(len(frames))]
-        if len(frames) == 1:
-            return None
-        found = Together(joined.scene(len(frames)), frames, scene)
-        self._rendered[depsgraph.view_layer.name] = found
-        return found
+        return Together(joined, frames, scene) if len(frames) > 1 else None
 
     def _limit(self, scene, sensor: dict) -> int:
         return power_of_two(min(self._most, most_frames(scene, sensor)))
@@ -59,12 +63,11 @@ class Shot:
             return "the camera is another one"
         return joined.add(engine.read(depsgraph).scene)
 
-    def _tell(self, engine, change: str, frame: int) -> None:
+    def _tell(self, engine, change: str, frame: int, then="another render begins there") -> None:
         """Says why frames are not rendered together: each reason once."""
         if change not in self._told:
             self._told.add(change)
-            sentence = f"pymlt: {change} in frame {frame}, so another render begins there"
-            engine.report({"INFO"}, sentence)
+            engine.report({"INFO"}, f"pymlt: {change} in frame {frame}, so {then}")
 
 
 def power_of_two(most: int) -> int:
@@ -89,18 +92,14 @@ def exists(scene, frame: int) -> bool:
 _running: Shot | None = None
 
 
-def known(engine, depsgraph) -> Together | None:
+def together(engine, depsgraph, described: dict) -> Together | None:
+    """The render of the present frame with others of a shot; None if it is to be rendered alone."""
     shot = _running if engine.is_animation else None
-    return shot and shot.known(depsgraph)
-
-
-def begun(engine, depsgraph, described: dict) -> Together | None:
-    shot = _running if engine.is_animation else None
-    return shot and shot.begun(engine, depsgraph, described)
+    return shot and shot.together(engine, depsgraph, described)
 
 
 class ShotOperator(bpy.types.Operator):
-    """Render the animation, several frames at a time, so that caustics do not flicker"""
+    """Render the animation, several frames at a time, so that caustics flicker less"""
 
     bl_idname = "pymlt.render_shot"
     bl_label = "Render Shot"

@@ -9,7 +9,7 @@ from pymlt.rendering.options import RenderOptions
 from pymlt.rendering.shot import Window, frames_together
 
 from . import glow, passes
-from .export import OPEN
+from .export import OPEN, Joined
 from .settings import threads
 
 TIMING = Timing(fps=1, shutter=OPEN)
@@ -25,12 +25,14 @@ def most_frames(scene, sensor: dict) -> int:
 class Together:
     """The render of frames that differ in nothing but where things are."""
 
-    def __init__(self, described: dict, frames: list[int], scene):
+    def __init__(self, joined: Joined, frames: list[int], scene):
         self.frames = frames
-        self._described, self._settings = described, scene.pymlt
+        self.has_begun = False
+        self._joined, self._described = joined, joined.scene(len(frames))
+        self._settings = scene.pymlt
         self._transparent = scene.render.film_transparent
         self._how = {"seed": scene.pymlt.seed, "threads": threads(scene)}
-        self._world = mlt.load_dict(described)
+        self._world = mlt.load_dict(self._described)
         chosen = scene.pymlt.chosen_integrator(transparent=self._transparent)
         places = list(range(len(frames)))
         self._window = Window(self._world, lambda seen: as_integrator(seen, chosen), TIMING, places)
@@ -41,7 +43,12 @@ class Together:
             raise mlt.UsageError(
                 "frames that are rendered together end by Time or Samples, not by Error; set one"
             )
+        self.has_begun = True
         return self._window.start(RenderOptions(**budget, **self._how))
+
+    def shows(self, frame: int, described: dict) -> bool:
+        """Whether it renders a frame as it is when Blender has come to it."""
+        return self._joined.shows(self.frames.index(frame), described)
 
     def picture(self, found: mlt.Result) -> mlt.Result:
         """The first frame of what the render has found so far, which later results are made of."""

@@ -26,6 +26,17 @@ class Joined:
             self._frames.append(ways(other))
         return found
 
+    def shows(self, place: int, scene: dict) -> bool:
+        """Whether the frame at this place is still what it was when it was added."""
+        if difference(self._first, scene):
+            return False
+        before, now = self._frames[place], ways(scene)
+        return all(
+            moments.keys() == now[name].keys()
+            and all(np.allclose(m, now[name][t], atol=1e-6) for t, m in moments.items())
+            for name, moments in before.items()
+        )
+
     def scene(self, count: int) -> dict:
         """The scene of the first `count` frames."""
         made = {n: without(p, SHUTTER) if n == "camera" else p for n, p in self._first.items()}

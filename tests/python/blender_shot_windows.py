@@ -80,8 +80,29 @@ def cut() -> None:
         scene.timeline_markers.new("cut", frame=frame).camera = camera
 
 
+def script() -> None:
+    """A script that Blender calls in each frame lifts the box from frame 3 on."""
+
+    def lift(scene, *_) -> None:
+        cube().delta_location.z = scene.frame_current > 2
+
+    bpy.app.handlers.frame_change_pre.append(lift)
+
+
+def ratchet() -> None:
+    """A script that lifts the box at frame 3, where it stays."""
+
+    def lift(scene, *_) -> None:
+        if scene.frame_current > 2:
+            cube().delta_location.z = 1
+
+    bpy.app.handlers.frame_change_pre.append(lift)
+
+
 CHANGES = (
-    nothing, longer, by_path, another_layer, zoom, hide, deform, brighten, mirror, turn, cut,
+    nothing, longer, by_path, another_layer,
+    zoom, hide, deform, brighten, mirror, turn, cut,
+    script, ratchet,
 )  # fmt: skip
 
 
@@ -90,13 +111,13 @@ def watched(shot) -> tuple[list, list]:
     told, windows = [], []
     tell, made = shot.Shot._tell, shot.Together
 
-    def heard(self, engine, change, frame):
+    def heard(self, engine, change, frame, *then):
         told.append([change, frame])
-        tell(self, engine, change, frame)
+        tell(self, engine, change, frame, *then)
 
-    def together(described, frames, scene):
+    def together(joined, frames, scene):
         windows.append(frames)
-        return made(described, frames, scene)
+        return made(joined, frames, scene)
 
     shot.Shot._tell, shot.Together = heard, together
     return told, windows
@@ -146,10 +167,11 @@ def main(folder: Path) -> None:
     for change in CHANGES:
         small()
         change()
-        save_to(folder / "small-#")
+        save_to(folder / f"{change.__name__}-#")
         bpy.ops.pymlt.render_shot(together=5)
         facts[change.__name__] = {"told": told[:], "windows": windows[:]}
         del told[:], windows[:]
+        bpy.app.handlers.frame_change_pre.clear()
     kept(folder)
     facts["kept"] = windows[:]
     facts["by error"] = failure(samples=0, error=5)

@@ -98,6 +98,22 @@ def test_frames_that_all_differ_are_rendered_alone(facts, change, sentence):
     assert facts[change] == {"told": [[sentence, 3], [sentence, 4]], "windows": [[1, 2]]}
 
 
+def test_what_a_script_moves_is_rendered_together(facts):
+    assert facts["script"] == facts["nothing"]
+    lifted, still = (
+        [picture(facts["folder"] / f"{name}-{frame}.exr") for frame in (2, 3)]
+        for name in ("script", "nothing")
+    )
+    changes = [np.abs(a - b).mean() for a, b in zip(lifted, still, strict=True)]
+    assert changes[0] < 0.3 * changes[1]
+
+
+def test_frames_that_are_not_what_they_were_before_are_rendered_alone(facts):
+    """The script has already lifted the box when Blender comes to frame 2."""
+    sentence = "things are not where they were when looked at before"
+    assert facts["ratchet"] == {"told": [[sentence, 2]], "windows": [[1, 2, 3, 4]]}
+
+
 def test_frames_that_are_to_stay_are_left_out(facts):
     assert facts["kept"] == [[1, 3]]
     assert (facts["folder"] / "kept-2.exr").read_bytes() == b"kept"
