@@ -6,6 +6,7 @@ Writes facts.json and pictures into a folder.
 import json
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 from blender_engine import ROOT, add, fresh, keyed, lamp
@@ -132,8 +133,18 @@ def kept(folder: Path) -> None:
     bpy.ops.pymlt.render_shot()
 
 
-def failure(**given) -> str:
+def entries(shot) -> list[str]:
+    """What is in the menu Render, by pymlt and by Cycles."""
+    found = []
+    layout = SimpleNamespace(operator=lambda name, icon: found.append(name))
+    for engine in ("PYMLT", "CYCLES"):
+        shot.draw_entry(SimpleNamespace(layout=layout), SimpleNamespace(engine=engine))
+    return found
+
+
+def failure(engine="PYMLT", **given) -> str:
     small(**given)
+    bpy.context.scene.render.engine = engine
     try:
         bpy.ops.pymlt.render_shot()
     except RuntimeError as error:
@@ -174,6 +185,8 @@ def main(folder: Path) -> None:
         bpy.app.handlers.frame_change_pre.clear()
     kept(folder)
     facts["kept"] = windows[:]
+    facts["entries"] = entries(shot)
+    facts["by cycles"] = failure("CYCLES")
     facts["by error"] = failure(samples=0, error=5)
     windows.clear()
     passes(folder / "passes", moving, samples=64)

@@ -124,6 +124,11 @@ def test_an_error_alone_ends_no_frames_that_are_rendered_together(facts):
     assert "end by Time or Samples" in facts["by error"]
 
 
+def test_the_operator_is_there_while_pymlt_is_the_engine(facts):
+    assert facts["entries"] == ["pymlt.render_shot"]
+    assert "poll() failed" in facts["by cycles"]
+
+
 @pytest.mark.parametrize("frame", [2, 3])
 def test_frames_that_are_rendered_together_have_all_passes(facts, frame):
     """Albedo, normals and alpha are those of frames alone, but for the noise of their edges."""
