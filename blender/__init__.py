@@ -1,12 +1,13 @@
 """A render engine for Blender that renders with pymlt."""
 
-from . import baking, engine, left_out, panels, settings
+from . import baking, engine, left_out, panels, settings, shot
 
 
 def register() -> None:
     settings.register()
     baking.register()
     engine.register()
+    shot.register()
     left_out.register()
     panels.register()
 
@@ -14,6 +15,7 @@ def register() -> None:
 def unregister() -> None:
     panels.unregister()
     left_out.unregister()
+    shot.unregister()
     engine.unregister()
     baking.unregister()
     settings.unregister()

@@ -6,9 +6,12 @@ from time import monotonic
 import bpy
 
 import pymlt as mlt
+from pymlt.formats.imported import Imported
 
-from . import glow, left_out, passes
+from . import glow, left_out, passes, shot
 from .export import stepped_export
+from .settings import threads
+from .together import Together
 from .viewport import Viewport
 
 INTERVAL = 0.5  #: seconds between two looks at a render, at the least
@@ -38,18 +41,42 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
     def _render(self, depsgraph) -> None:
         if depsgraph.scene.camera is None:
             raise mlt.SceneError("the scene has no camera")
+        passes.add(self)
+        made = self.read(depsgraph)
+        together = shot.together(self, depsgraph, made.scene)
+        if together is None:
+            self._render_alone(depsgraph, made.scene)
+            return
+        if not together.has_begun:
+            self._render_first(together, depsgraph.view_layer.name)
+        if not self.test_break():
+            found = together.result(depsgraph.scene.frame_current)
+            self._show(depsgraph.view_layer.name, 0.0, found, 1)
+
+    def read(self, depsgraph) -> Imported:
+        """The export of the frame; what is left out of it is told."""
         self.update_stats("", "Reading the scene")
         made = stepped_export(self, depsgraph)
         left_out.note(depsgraph.scene, made.warnings)
         tell_left_out(self, made.warnings)
-        world = mlt.load_dict(made.scene)
-        passes.add(self)
+        return made
+
+    def _render_alone(self, depsgraph, described: dict) -> None:
+        world = mlt.load_dict(described)
         settings, seen = depsgraph.scene.pymlt, 0.0
         if depsgraph.scene.render.film_transparent:
-            seen = glow.seen_directly(made.scene, settings.seed)
+            seen = glow.seen_directly(described, settings.seed)
         show = partial(self._show, depsgraph.view_layer.name, seen)
         found = follow(start(world, depsgraph.scene), self.test_break, show)
         show(found, 1)
+
+    def _render_first(self, together: Together, layer: str) -> None:
+        """Renders several frames, of which the first one is seen."""
+
+        def show(found: mlt.Result, progress: float) -> None:
+            self._show(layer, 0.0, together.picture(found), progress)
+
+        together.picture(follow(together.start(), self.test_break, show))
 
     def _show(self, layer: str, seen, found: mlt.Result, progress: float) -> None:
         height, width = found.image.shape[:2]
@@ -62,15 +89,13 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
 
 def start(world: mlt.Scene, scene) -> mlt.Job:
     """The render of a scene with Blender's settings."""
-    settings, threads = scene.pymlt, 0
-    if scene.render.threads_mode == "FIXED":
-        threads = scene.render.threads
+    settings = scene.pymlt
     seed = settings.seed + settings.animate_seed * max(scene.frame_current, 0)
     transparent = scene.render.film_transparent
     integrator = settings.chosen_integrator(transparent=transparent)
     options = {"aovs": passes.AOVS, "alpha": transparent, "denoise": settings.denoise}
     options |= settings.budget()
-    return mlt.start(world, integrator, seed=seed, threads=threads, **options)
+    return mlt.start(world, integrator, seed=seed, threads=threads(scene), **options)
 
 
 def follow(job: mlt.Job, is_stopped, show) -> mlt.Result:
@@ -90,9 +115,10 @@ def follow(job: mlt.Job, is_stopped, show) -> mlt.Result:
 def statistics(found: mlt.Result) -> str:
     """What the line above the picture says."""
     stats = found.stats
-    samples, error = stats["spp_done"], stats.get("denoised_error", stats["error"])
+    error, frames = stats.get("denoised_error", stats["error"]), stats.get("exposures", 1)
     known = "" if error is None else f", error {100 * error:.2g} %"
-    return f"{samples:.4g} samples per pixel{known}"
+    of_each = f" in each of {frames} frames" if frames > 1 else ""
+    return f"{stats['spp_done'] / frames:.4g} samples per pixel{of_each}{known}"
 
 
 _told: set[str] = set()

@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from . import baking, left_out
+from . import baking, left_out, shot
 from .settings import INTEGRATORS, PymltSettings
 
 LETTER = 7  #: pixels, about, at the scale 1 of the interface
@@ -34,6 +34,7 @@ class SamplingPanel(PymltPanel):
         for name in PymltSettings.__annotations__:
             if name not in (*INTEGRATORS, "bake_resolution"):
                 self.layout.prop(context.scene.pymlt, name)
+        self.layout.operator(shot.ShotOperator.bl_idname)
 
 
 class ParametersPanel(PymltPanel):

@@ -20,6 +20,7 @@ EXTRA = {
     "Depth": Pass("depth", "Z", "VALUE"),
 }
 AOVS = "albedo,normal:sh_normal,depth"
+SEEN_FIRST = ("albedo", "normal", "depth", "alpha")  #: layers that no light is needed for
 NOTHING = 1e10  #: depth where the camera sees nothing, as in Blender
 
 

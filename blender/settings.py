@@ -114,6 +114,11 @@ class PymltSettings(bpy.types.PropertyGroup):
         }
 
 
+def threads(scene) -> int:
+    """Threads of a render; 0 stands for all there are."""
+    return scene.render.threads if scene.render.threads_mode == "FIXED" else 0
+
+
 PymltSettings.__annotations__ |= {
     name: PointerProperty(type=group) for name, group in INTEGRATORS.items()
 }

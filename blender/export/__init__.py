@@ -2,5 +2,14 @@
 
 from .lights import is_light
 from .scene import export, looked_through, stepped_export, unknown_textures
+from .together import OPEN, Joined
 
-__all__ = ["export", "is_light", "looked_through", "stepped_export", "unknown_textures"]
+__all__ = [
+    "OPEN",
+    "Joined",
+    "export",
+    "is_light",
+    "looked_through",
+    "stepped_export",
+    "unknown_textures",
+]

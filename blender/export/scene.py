@@ -18,7 +18,7 @@ def export(depsgraph, sensor: dict, motion: Motion | None = None) -> Imported:
     """A scene dict, and what could not be carried over, of what `depsgraph` holds now."""
     made = Imported()
     made.add("camera", sensor)
-    if surroundings := world.light(depsgraph.scene.world, made):
+    if surroundings := world.light(depsgraph.scene_eval.world, made):
         made.add("world", surroundings)
     Objects(made, motion or Motion(), depsgraph.scene).add_all(depsgraph)
     give_priorities(made.scene)

@@ -28,6 +28,19 @@ def lamp(kind, energy, location, rotation=(0, 0, 0), **values):
         setattr(bpy.context.object.data, name, value)
 
 
+def keyed(owner, name: str, values: dict, interpolation="BEZIER") -> None:
+    """Gives a property other values at some frames."""
+    for frame, value in values.items():
+        setattr(owner, name, value)
+        owner.keyframe_insert(name, frame=frame)
+    action = owner.id_data.animation_data.action
+    layers = getattr(action, "layers", None)
+    curves = layers[0].strips[0].channelbags[0].fcurves if layers else action.fcurves
+    for curve in curves:
+        for key in curve.keyframe_points:
+            key.interpolation = interpolation
+
+
 def fresh(sky=0.0):
     """A floor below a camera, and an even sky."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -205,15 +218,7 @@ def moving():
     fresh()
     glow = material("glow", Emission_Color=(1, 1, 1, 1), Emission_Strength=1.0)
     cube = add(bpy.ops.mesh.primitive_cube_add, glow, size=0.8)
-    for frame, x in ((1, -2.0), (3, 2.0)):
-        cube.location = (x, 0, 0.5)
-        cube.keyframe_insert("location", frame=frame)
-    action = cube.animation_data.action
-    layers = getattr(action, "layers", None)
-    curves = layers[0].strips[0].channelbags[0].fcurves if layers else action.fcurves
-    for curve in curves:
-        for key in curve.keyframe_points:
-            key.interpolation = "LINEAR"
+    keyed(cube, "location", {1: (-2, 0, 0.5), 3: (2, 0, 0.5)}, "LINEAR")
     bpy.context.scene.render.use_motion_blur = True
     bpy.context.scene.render.motion_blur_shutter = 1.0
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = 1, 3

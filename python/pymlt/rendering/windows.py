@@ -114,7 +114,7 @@ class WindowRender:
         return self.job
 
     @cached_property
-    def _whole(self) -> Result:
+    def whole(self) -> Result:
         """The result of the render, which has all its layers."""
         return self.job.result()
 
@@ -125,14 +125,14 @@ class WindowRender:
     def result(self, place: int) -> Result:
         """That of the frame at this place."""
         if self.count == 1:
-            return self._whole
+            return self.whole
         name = f"exposure.{place + 1}"
-        error = self._whole.layers.get("error." + name)
-        stats = {k: v for k, v in self._whole.stats.items() if k not in OF_WHOLE_IMAGES}
+        error = self.whole.layers.get("error." + name)
+        stats = {k: v for k, v in self.whole.stats.items() if k not in OF_WHOLE_IMAGES}
         stats |= {"exposures": self.count, "error": self.error(place)}
         return replace(
-            self._whole,
-            image=self._whole.layers[name] * self.count,
+            self.whole,
+            image=self.whole.layers[name] * self.count,
             layers={} if error is None else {"error": error * self.count},
             stats=stats,
         )
