@@ -22,7 +22,7 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, 
     return;
   }
   if (scene.backgrounds().empty()) return;
-  const SurfacePoint x0 = Scene::point_at_infinity(w, ray.wavelength);
+  const SurfacePoint x0 = Scene::point_at_infinity(ray);
   for (const uint32_t index : scene.backgrounds()) {
     const Emitter& emitter = *scene.emitters()[index];
     visit(emitter, x0, emitter.eval(x0, -w));
@@ -79,7 +79,7 @@ inline bool go_through(const Walker& walker, double u_leg, bool hit, CameraWalk&
   const Vec3& w = walk.ray.d;
   hit = walker.go_on(walk.ray, u_leg, hit, at, leg, first);
   walk.begin_leg(first);
-  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
+  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(walk.ray), w));
   if (hit && at.in_medium()) walk.certainty = 0;
   return hit;
 }

@@ -48,6 +48,9 @@ class Scene:
         Raises SceneError for one that is wrong.
         """
 
+    def animations(self) -> list[tuple[float, float]]:
+        """When its animations begin and end, those of transforms and those of colours."""
+
     def parameters(self) -> dict[str, Any]:
         """What can be changed, by name, with its current value."""
 

@@ -129,14 +129,14 @@ def windows(frames: list[int], most: int) -> list[list[int]]:
 
 
 def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str | None:
-    """The warning for a shot in which nothing moves."""
+    """The warning for a shot in which nothing moves or changes."""
     first, last = timing.times(min(frames))[0], timing.times(max(frames))[1]
-    keys = [list(v) for v in scene.parameters().values() if isinstance(v, dict) and len(v) > 1]
-    if not keys:
+    animations = scene.animations()
+    if not animations:
         return "nothing in the scene has an animation: all frames show the same"
-    if any(min(times) < last and max(times) > first for times in keys):
+    if any(start < last and end > first for start, end in animations):
         return None
-    start, end = min(map(min, keys)), max(map(max, keys))
+    start, end = min(start for start, _ in animations), max(end for _, end in animations)
     return (
         f"nothing moves from {first:g} to {last:g} s, the time of these frames: the scene's "
         f"animations go from {start:g} to {end:g} s"
