@@ -6,6 +6,7 @@
 #include "shape_triangles.h"
 #include "text.h"
 
+#include "io/animation_times.h"
 #include "io/pack.h"
 #include "io/view_nodes.h"
 #include "job/make_integrator.h"
@@ -135,6 +136,11 @@ void bind_scene(py::module_& m) {
            "The same scene, with spectral films: light has wavelengths instead of R, G and B.\n\n"
            "With a `band` of wavelengths, as in (400, 430), the image shows the mean radiance in "
            "it,\nper nm, as a grey.")
+      .def(
+          "animations", [](const LoadedScene& s) { return animation_times(s.tree); },
+          "From when to when anything moves or changes: the times of keys that follow each other "
+          "and "
+          "differ.")
       .def("parameters", &scene_parameters, "What can be changed, by name, with its current value.")
       .def(
           "updated",

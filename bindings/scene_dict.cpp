@@ -1,7 +1,7 @@
 // The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
 // references are dicts with types of their own ("rgb", "srgb", "spectrum", "ref");
-// transforms are 4 x 4 matrices, or animations of them. A nested plug-in's key is the parameter it
-// is given for, or, in a scene, its id.
+// transforms are 4 x 4 matrices, or animations of them; a colour may be an animation, too. A nested
+// plug-in's key is the parameter it is given for, or, in a scene, its id.
 #include "scene_dict.h"
 
 #include "text.h"
@@ -15,28 +15,6 @@
 
 namespace mlt::python {
 namespace {
-
-struct ToPython {
-  py::object operator()(std::monostate) const { return py::none(); }
-  py::object operator()(const ObjectPtr&) const { return py::none(); }
-  py::object operator()(const Matrix& m) const {
-    py::list rows;
-    for (size_t i = 0; i < 16; i += 4)
-      rows.append(py::make_tuple(m[i], m[i + 1], m[i + 2], m[i + 3]));
-    return rows;
-  }
-  py::object operator()(const Animation& animation) const {
-    py::dict keys;
-    for (const Keyframe& key : animation) keys[py::float_(key.time)] = (*this)(key.transform);
-    return keys;
-  }
-  py::object operator()(const Buffer& buffer) const { return py::bytes(buffer.bytes()); }
-  py::object operator()(const Triple& t) const { return py::make_tuple(t[0], t[1], t[2]); }
-  template <class T>
-  py::object operator()(const T& value) const {
-    return py::cast(value);
-  }
-};
 
 std::string kind_of(const py::handle& object) {
   return "of type " + std::string(py::str(py::type::of(object).attr("__name__")));
@@ -131,21 +109,40 @@ Value from_color(const py::dict& dict, const std::string& type, const std::strin
   return given;
 }
 
-/// {"type": "animation", "0": matrix, "1": matrix}: the other keys are times, as text or numbers.
-Animation from_animation(const py::dict& dict, const std::string& key, const Location& where) {
-  Animation animation;
+/// The keys of {"type": "animation", "0": value, "1": value} in the order of time, which is text or
+/// a number.
+std::vector<std::pair<double, py::object>> keys_of(const py::dict& dict, const std::string& key,
+                                                   const Location& where) {
+  std::vector<std::pair<double, py::object>> keys;
   for (const auto& [time, value] : dict) {
     const std::string text = str_of(py::str(time), key, where);
     if (text == "type") continue;
     const auto number = parse_real(text);
     if (!number) refuse(where, key, "has the key '" + text + "', which is not a time");
-    const Value given = from_scalar_or_array(py::reinterpret_borrow<py::object>(value), key, where);
+    keys.emplace_back(*number, py::reinterpret_borrow<py::object>(value));
+  }
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return keys;
+}
+
+/// Whether the keys of an animation are transforms, as the first one tells.
+bool moves(const py::dict& dict, const std::string& key, const Location& where) {
+  const auto keys = keys_of(dict, key, where);
+  if (keys.empty()) return true;
+  const py::object& first = keys.front().second;
+  if (py::isinstance<py::dict>(first) || py::hasattr(first, "to_dict")) return false;
+  return std::holds_alternative<Matrix>(from_scalar_or_array(first, key, where));
+}
+
+Animation from_animation(const py::dict& dict, const std::string& key, const Location& where) {
+  Animation animation;
+  for (const auto& [time, value] : keys_of(dict, key, where)) {
+    const Value given = from_scalar_or_array(value, key, where);
     const auto* matrix = std::get_if<Matrix>(&given);
     if (!matrix) refuse(where, key, "should have a 4 x 4 matrix at each time");
-    animation.push_back({*number, *matrix});
+    animation.push_back({time, *matrix});
   }
-  std::sort(animation.begin(), animation.end(),
-            [](const Keyframe& a, const Keyframe& b) { return a.time < b.time; });
   return animation;
 }
 
@@ -231,6 +228,10 @@ class Converter {
       node.properties.push_back({key, from_color(dict, type, key, node.where), node.where});
       return;
     }
+    if (type == "animation" && !moves(dict, key, node.where)) {
+      node.children.push_back(animated(dict, key, path));
+      return;
+    }
     if (type == "animation") {
       node.properties.push_back({key, from_animation(dict, key, node.where), node.where});
       return;
@@ -241,6 +242,17 @@ class Converter {
       child.name = key;
     else if (child.id.empty())
       child.id = key;
+  }
+
+  /// A texture whose keys are these colours, numbers or textures.
+  Node animated(const py::dict& dict, const std::string& name, const std::string& path) {
+    Node animation{"texture", "animation", "", name, {path, 0}, {}, {}};
+    for (const auto& [time, value] : keys_of(dict, name, animation.where)) {
+      const Location where{path + fmt::format("['{:g}']", time), 0};
+      animation.children.push_back({"texture", "key", "", "", where, {{"time", time, where}}, {}});
+      add(animation.children.back(), "value", value);
+    }
+    return animation;
   }
 
   Node nested(const py::dict& dict, const std::string& type, const std::string& key,
@@ -261,8 +273,6 @@ class Converter {
 Value to_value(const py::object& object, const std::string& parameter, const Location& where) {
   return from_scalar_or_array(object, parameter, where);
 }
-
-py::object to_python(const Value& value) { return std::visit(ToPython{}, value); }
 
 Node to_node(const py::dict& dict, const std::string& family, const std::string& path,
              const Registry& registry) {

@@ -64,6 +64,7 @@ bool fits(const Value& value, ParamType type) {
     case ParamType::motion: return is<Matrix>(value) || is<Animation>(value);
     case ParamType::reflectance:  // an object may be a spectrum
     case ParamType::radiance:
+    case ParamType::lamp:
     case ParamType::texture:
     case ParamType::emission:
     case ParamType::volume: return is_color(value) || is<ObjectPtr>(value);

@@ -46,6 +46,7 @@ enum class ParamType {
   motion,       ///< Matrix, or Animation.
   reflectance,  ///< A number, RGB or spectrum in [0, 1].
   radiance,     ///< A number, RGB or spectrum, unbounded.
+  lamp,         ///< A radiance, or colours at times.
   texture,      ///< A reflectance, or a Texture.
   emission,     ///< A radiance, or a Texture.
   volume,       ///< A radiance, or a Volume.

@@ -11,7 +11,7 @@
 #include "scene/mesh/mesh.h"
 #include "scene/nested.h"
 #include "scene/shape/sphere.h"
-#include "scene/texture/texture.h"
+#include "scene/texture/animation.h"
 #include "scene/transform/motion.h"
 
 #include <algorithm>
@@ -64,6 +64,26 @@ ObjectPtr make_from_file(const Plugin& plugin, Params& params) {
     throw FileError(params.text("filename") +
                     ": cannot read it: there is not enough memory for what it holds");
   }
+}
+
+/// Refuses a texture, or anything else in its place, that a parameter cannot have.
+void check_texture(const Node& parent, const Node& child, const Node& target,
+                   const Parameter& parameter, const ObjectPtr& nested) {
+  const ParamType type = parameter.type;
+  const bool textured = type == ParamType::texture || type == ParamType::emission;
+  const bool coloured =
+      type == ParamType::reflectance || type == ParamType::radiance || type == ParamType::lamp;
+  const auto texture = std::dynamic_pointer_cast<Texture>(nested);
+  const bool changes = std::dynamic_pointer_cast<AnimatedTexture>(nested) != nullptr;
+  if (changes && (textured || type == ParamType::lamp || type == ParamType::object)) return;
+  if (changes)
+    throw SceneError(at(child.where, "{} '{}': '{}' cannot change over time", parent.family,
+                        parent.type, parameter.name));
+  const bool fits =
+      textured ? texture != nullptr : texture && texture->spectrum(SpectrumUse::unbounded);
+  if ((textured || coloured) && !fits)
+    throw SceneError(at(child.where, "{} '{}': '{}' is a {}, but should be a {}", parent.family,
+                        parent.type, parameter.name, target.family, to_string(type)));
 }
 
 }  // namespace
@@ -127,6 +147,8 @@ ObjectPtr Builder::make(const Node& node) {
     parts_.emplace(key, Part{part.object, params.nested(), part.warnings});
   else
     object = part.object;
+  if (const auto animated = std::dynamic_pointer_cast<AnimatedTexture>(object))
+    object = animated->during(shutter_);
   if (auto reader = std::dynamic_pointer_cast<ShapeReader>(object))
     shape_readers_.push_back(std::move(reader));
   if (const auto shape = std::dynamic_pointer_cast<Shape>(object)) {
@@ -211,16 +233,7 @@ void Builder::give(Params& params, const Node& parent, const Node& child) {
     return params.add(target.family, std::move(nested), child.where);
   const std::string name = current_name(parent, child.name, schema);
   const Parameter* parameter = schema.find(snake_case(name));
-  const bool textured = parameter && (parameter->type == ParamType::texture ||
-                                      parameter->type == ParamType::emission);
-  const bool coloured = parameter && (parameter->type == ParamType::reflectance ||
-                                      parameter->type == ParamType::radiance);
-  const auto texture = std::dynamic_pointer_cast<Texture>(nested);
-  const bool fits =
-      textured ? texture != nullptr : texture && texture->spectrum(SpectrumUse::unbounded);
-  if ((textured || coloured) && !fits)
-    throw SceneError(at(child.where, "{} '{}': '{}' is a {}, but should be a {}", parent.family,
-                        parent.type, parameter->name, target.family, to_string(parameter->type)));
+  if (parameter) check_texture(parent, child, target, *parameter, nested);
   params.set(name, std::move(nested), child.where);
 }
 

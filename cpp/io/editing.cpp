@@ -70,6 +70,17 @@ void replace(const NamedNode& plugin, const std::string& parameter, std::vector<
     all.erase(first);
 }
 
+/// The parameter that has exactly this name; without a plug-in if there is none.
+NamedParameter parameter_named(const std::vector<NamedNode>& nodes, const std::string& name) {
+  const size_t dot = name.rfind('.');
+  if (dot == std::string::npos) return {};
+  for (const NamedNode& plugin : nodes)
+    if (plugin.name == name.substr(0, dot))
+      for (const Parameter* parameter : plugin.parameters())
+        if (parameter->name == snake_case(name.substr(dot + 1))) return {&plugin, parameter};
+  return {};
+}
+
 }  // namespace
 
 std::vector<const Parameter*> NamedNode::parameters() const {
@@ -98,19 +109,14 @@ std::vector<NamedNode> name_nodes(Node& tree, const Registry& registry) {
 }
 
 NamedParameter find_parameter(const std::vector<NamedNode>& nodes, const std::string& full_name) {
+  if (const NamedParameter found = parameter_named(nodes, full_name); found.plugin) return found;
   // Mitsuba 3 says "red.reflectance.value".
   constexpr std::string_view value = ".value";
   const bool long_form =
       full_name.size() > value.size() &&
       full_name.compare(full_name.size() - value.size(), value.size(), value) == 0;
   const std::string name = full_name.substr(0, full_name.size() - (long_form ? value.size() : 0));
-  const size_t dot = name.rfind('.');
-  const std::string prefix = name.substr(0, dot);
-  if (dot != std::string::npos)
-    for (const NamedNode& plugin : nodes)
-      if (plugin.name == prefix)
-        for (const Parameter* parameter : plugin.parameters())
-          if (parameter->name == snake_case(name.substr(dot + 1))) return {&plugin, parameter};
+  if (const NamedParameter found = parameter_named(nodes, name); found.plugin) return found;
   std::vector<std::string> names;
   for (const NamedNode& plugin : nodes)
     for (const Parameter* parameter : plugin.parameters())

@@ -32,6 +32,20 @@ const std::map<std::string, std::string>& refused_elements() {
 
 }  // namespace
 
+const std::vector<std::string>& scene_tags() {
+  static const std::vector<std::string> tags = [] {
+    std::vector<std::string> all = plugin_families();
+    all.insert(all.end(), {"default", "include", "path", "alias", "ref", "transform", "animation"});
+    return all;
+  }();
+  return tags;
+}
+
+bool reads_a_file(const std::string& family) {
+  return family == "shape" || family == "texture" || family == "emitter" || family == "bsdf" ||
+         family == "volume";
+}
+
 bool is_refused_element(const std::string& tag) { return refused_elements().count(tag) > 0; }
 
 void refuse_element(const std::string& tag, const std::string& type, const Location& where) {

@@ -12,6 +12,10 @@ namespace mlt {
 /// "shape", "texture", "volume".
 const std::vector<std::string>& plugin_families();
 bool is_plugin_family(const std::string& tag);
+/// Elements at the top of a scene.
+const std::vector<std::string>& scene_tags();
+/// Whether the string `filename` of a family is a file to read. (A film's is one to write.)
+bool reads_a_file(const std::string& family);
 
 /// Whether refuse_element() refuses this element.
 bool is_refused_element(const std::string& tag);

@@ -2,7 +2,7 @@
 
 #include "scene/medium/medium.h"
 #include "scene/shape/shape_reader.h"
-#include "scene/texture/texture.h"
+#include "scene/texture/animation.h"
 
 namespace mlt {
 
@@ -17,7 +17,7 @@ const Part* PartSource::take(const std::string& key) {
 ObjectPtr for_scene(const ObjectPtr& object) {
   if (std::dynamic_pointer_cast<ShapeReader>(object)) return nullptr;
   if (std::dynamic_pointer_cast<Bsdf>(object) || std::dynamic_pointer_cast<Texture>(object) ||
-      std::dynamic_pointer_cast<Medium>(object))
+      std::dynamic_pointer_cast<Medium>(object) || std::dynamic_pointer_cast<ColorKey>(object))
     return object;
   ObjectPtr copy = object->copy();
   if (const auto shape = std::dynamic_pointer_cast<Shape>(copy))

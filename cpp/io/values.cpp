@@ -102,6 +102,7 @@ std::string tag_of(ParamType type) {
     case ParamType::point: return "point";
     case ParamType::reflectance:
     case ParamType::radiance:
+    case ParamType::lamp:
     case ParamType::texture:
     case ParamType::emission:
     case ParamType::volume: return "spectrum";

@@ -27,26 +27,10 @@ constexpr size_t max_text = size_t{1} << 28;  ///< Bytes of all files together.
 constexpr size_t longest_name = 1000;
 constexpr size_t max_attributes = 100;
 
-/// Whether the string `filename` of a family is a file to read. (A film's is one to write.)
-bool reads_a_file(const std::string& family) {
-  return family == "shape" || family == "texture" || family == "emitter" || family == "bsdf" ||
-         family == "volume";
-}
-
 std::string canonical(const std::string& path) {
   std::error_code error;
   const fs::path result = fs::weakly_canonical(path, error);
   return error ? path : result.string();
-}
-
-/// Elements at the top of a scene.
-const std::vector<std::string>& scene_tags() {
-  static const std::vector<std::string> tags = [] {
-    std::vector<std::string> all = plugin_families();
-    all.insert(all.end(), {"default", "include", "path", "alias", "ref", "transform", "animation"});
-    return all;
-  }();
-  return tags;
 }
 
 /// Whether the format is that of Mitsuba 2 or later.
@@ -159,7 +143,12 @@ class XmlReader {
     if (!known && !(tag == "blackbody" && !source.modern))
       return is_refused_element(tag) ? refuse_later() : skip_foreign({tag, where, {}}, parent);
 
-    const Element e = element(xml, source);
+    read_element(xml, element(xml, source), parent, source, depth);
+  }
+
+  void read_element(const pugi::xml_node& xml, const Element& e, Node& parent, Source& source,
+                    int depth) {
+    const std::string& tag = e.tag;
     if (tag == "blackbody") {
       parent.children.push_back(read_blackbody(e));
       return;
@@ -173,14 +162,17 @@ class XmlReader {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       return;
     }
+    if (parent.family == "scene" && (tag == "transform" || tag == "animation"))
+      e.fail("has no effect at the top of a scene; put it inside a shape");
     if (tag == "transform") return read_placement(xml, e, parent, source, read_xml_transform);
+    if (tag == "animation" && has_colors(xml)) return read_keys(xml, e, parent, source, depth);
     if (tag == "animation") return read_placement(xml, e, parent, source, read_xml_animation);
     for (const pugi::xml_node& child : xml.children())
       if (child.type() != pugi::node_comment) e.fail("should be empty, but has something inside");
 
     if (tag == "ref") {
       e.expect_only({"id", "name"});
-      parent.children.push_back({"ref", e.require("id"), "", e.get("name"), where, {}, {}});
+      parent.children.push_back({"ref", e.require("id"), "", e.get("name"), e.where, {}, {}});
     } else if (tag == "default") {
       e.expect_only({"name", "value"});
       if (!e.find("value")) e.require("value");
@@ -190,10 +182,10 @@ class XmlReader {
     } else if (tag == "path") {
       e.expect_only({"value"});
       if (parent.family != "scene") e.fail("must stand at the top of the scene");
-      source.search.prepend(source.search.find_directory(e.require("value"), where));
+      source.search.prepend(source.search.find_directory(e.require("value"), e.where));
     } else if (tag == "alias") {
       e.expect_only({"id", "as"});
-      if (!aliases_.emplace(e.require("as"), Alias{e.require("id"), where}).second)
+      if (!aliases_.emplace(e.require("as"), Alias{e.require("id"), e.where}).second)
         e.fail("gives the name " + quote(e.get("as")) + " a second time");
     } else if (is_value_tag(tag)) {
       read_property(e, parent, source);
@@ -227,9 +219,21 @@ class XmlReader {
                       const Source& source, Read&& read) {
     e.expect_only({"name"});
     Value value = read(xml, e, [&](const pugi::xml_node& inner) { return element(inner, source); });
-    if (parent.family == "scene")
-      e.fail("has no effect at the top of a scene; put it inside a shape");
     parent.properties.push_back({e.require("name"), std::move(value), e.where});
+  }
+
+  /// Reads an <animation> of colours, numbers or textures.
+  void read_keys(const pugi::xml_node& xml, const Element& e, Node& parent, Source& source,
+                 int depth) {
+    e.expect_only({"name"});
+    Node animation{"texture", "animation", "", e.require("name"), e.where, {}, {}};
+    const auto read = [&](const pugi::xml_node& inner) { return element(inner, source); };
+    const auto add = [&](const pugi::xml_node& key_xml, Element key) {
+      animation.children.push_back(take_key(key));
+      read_element(key_xml, key, animation.children.back(), source, depth + 2);
+    };
+    for_each_inside(xml, e, read, "colours with a time", add);
+    parent.children.push_back(std::move(animation));
   }
 
   void read_include(const Element& element, Node& parent, const Source& source, int depth) {

@@ -98,6 +98,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     const double r = along_light(x).sample(rng.next()), phi = 2 * pi * rng.next();
     const Vec2 u = position_numbers(x) + r * Vec2(std::cos(phi), std::sin(phi));
     SurfacePoint at = light(x).sample_position(u - glm::floor(u), x.path.time).at;
+    at.time = x.path.time;
     at.wavelength = x.path.wavelength;
     at.medium = x[0].at.medium;
     return light_vertex(light(x), at);

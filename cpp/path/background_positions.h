@@ -11,10 +11,11 @@ namespace mlt {
 class BackgroundPositions {
  public:
   /// Queues the sampling of a position on a light at infinity. sample_all() writes the result to
-  /// `light`, which must not move until then. `wavelength` is that of its path.
-  void add(const EmitterChoice& choice, const Vec2& u, double wavelength, LightSample& light) {
+  /// `light`, which must not move until then. `time` and `wavelength` are those of its path.
+  void add(const EmitterChoice& choice, const Vec2& u, double time, double wavelength,
+           LightSample& light) {
     light.emitter = choice.emitter;
-    waiting_.push_back({choice, {u, wavelength, &light.x0, &light.radiance}});
+    waiting_.push_back({choice, {u, time, wavelength, &light.x0, &light.radiance}});
   }
   void sample_all(const Scene& scene) {
     for (const uint32_t index : scene.infinite_emitters()) {

@@ -125,7 +125,7 @@ void BidirectionalSampler::sample_backgrounds() {
     Vec3 u = direct_u_[i];
     const EmitterChoice choice = scene_->choose_emitter_for(camera_[i].vertex.at.p, u.x);
     light.emitter = nullptr;
-    if (choice.emitter->infinite()) backgrounds_.add(choice, {u.y, u.z}, wavelength_, light);
+    if (choice.emitter->infinite()) backgrounds_.add(choice, {u.y, u.z}, time_, wavelength_, light);
   }
   backgrounds_.sample_all(*scene_);
 }

@@ -22,7 +22,7 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, 
     return;
   }
   if (scene.backgrounds().empty()) return;
-  const SurfacePoint x0 = Scene::point_at_infinity(w, ray.wavelength);
+  const SurfacePoint x0 = Scene::point_at_infinity(ray);
   for (const uint32_t index : scene.backgrounds()) {
     const Emitter& emitter = *scene.emitters()[index];
     visit(emitter, x0, emitter.eval(x0, -w));

@@ -46,7 +46,7 @@ inline bool go_through(const Walker& walker, double u_leg, bool hit, CameraWalk&
   const Vec3& w = walk.ray.d;
   hit = walker.go_on(walk.ray, u_leg, hit, at, leg, first);
   walk.begin_leg(first);
-  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
+  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(walk.ray), w));
   if (hit && at.in_medium()) walk.certainty = 0;
   return hit;
 }

@@ -44,7 +44,7 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
       --size_;
       return false;
     }
-    at = Scene::point_at_infinity(ray.d, ray.wavelength);
+    at = Scene::point_at_infinity(ray);
   }
   next.throughput = previous.next_throughput;
   next.survival = previous.next_survival;

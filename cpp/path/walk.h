@@ -31,6 +31,7 @@ LightSample sample_light(const Scene& scene, const EmitterChoice& choice, const 
   const bool in_volume = scene.has_media() && emitter.glowing();
   LightSample light{
       &emitter, in_volume ? emitter.sample_volume(u, choice.remainder, time) : sample(emitter), {}};
+  light.x0.at.time = time;
   light.x0.at.wavelength = wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) scene.find_medium_at_light(emitter, light.x0);
@@ -167,7 +168,7 @@ struct Walker {
                   Vertex& x0) const {
     const Emitter* emitter = hit ? scene.emitter(at) : background();
     if (!emitter || emitter->delta_direction()) return false;
-    x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d, ray.wavelength));
+    x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray));
     return true;
   }
 

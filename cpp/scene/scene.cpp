@@ -249,9 +249,10 @@ Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
   return rest;
 }
 
-SurfacePoint Scene::point_at_infinity(const Vec3& w, double wavelength) {
-  SurfacePoint at = InfiniteEmitter::point_towards(w);
-  at.wavelength = wavelength;
+SurfacePoint Scene::point_at_infinity(const Ray& ray) {
+  SurfacePoint at = InfiniteEmitter::point_towards(ray.d);
+  at.time = ray.time;
+  at.wavelength = ray.wavelength;
   return at;
 }
 

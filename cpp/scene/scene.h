@@ -164,8 +164,8 @@ class Scene {
   const std::vector<uint32_t>& infinite_emitters() const { return infinite_; }
   /// Lights at infinity that a ray can hit: all but directional lights.
   const std::vector<uint32_t>& backgrounds() const { return backgrounds_; }
-  /// The vertex at infinity that a ray along w ends in.
-  static SurfacePoint point_at_infinity(const Vec3& w, double wavelength = rgb_lanes);
+  /// The vertex at infinity that a ray ends in.
+  static SurfacePoint point_at_infinity(const Ray& ray);
 
   /// Chooses a light.
   EmitterChoice choose_emitter(double u) const {

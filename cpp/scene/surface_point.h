@@ -36,7 +36,7 @@ struct SurfacePoint {
   /// that of both sides unless the surface is a boundary (Media).
   MediumIndex medium = no_medium;
   SolidIndex around = no_solid;   ///< On a solid: the one that its surface is in.
-  double time = 0;                ///< Time, on moving shapes.
+  double time = 0;                ///< That of its path.
   double wavelength = rgb_lanes;  ///< That of its path: see wavelengths.h.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;

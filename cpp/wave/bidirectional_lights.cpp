@@ -145,7 +145,7 @@ void BidirectionalWave::choose_other_direct(int i, const Vec3& from, const Emitt
   other_direct_[added].sample = i;
   LightSample& light = other_direct_[added].light;
   if (choice.probability > 0 && choice.emitter->infinite()) {
-    backgrounds_.add(choice, u, wavelength_[i], light);
+    backgrounds_.add(choice, u, time(i), wavelength_[i], light);
     return;
   }
   SurfacePoint at;

@@ -5,11 +5,12 @@
 namespace mlt {
 
 int GlossyVertices::add(int path, const LaneMesh& shape, uint32_t triangle, const Vec2f& b,
-                        double wavelength) {
+                        double time, double wavelength) {
   GlossyVertex& vertex = vertices_[size_t(count_)];
   vertex.path = path;
   vertex.bsdf = shape.glossy;
   shape.mesh->textured_point(triangle, Vec2(b), vertex.at);
+  vertex.at.time = time;
   vertex.at.wavelength = wavelength;
   vertex.frame.s = shape.mesh->along_u(triangle);
   vertex.light_pdf = 0;

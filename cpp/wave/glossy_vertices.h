@@ -44,7 +44,8 @@ class GlossyVertices {
   GlossyVertex* end() { return begin() + count_; }
 
   /// Adds a vertex at these barycentrics of a triangle, and returns its index.
-  int add(int path, const LaneMesh& shape, uint32_t triangle, const Vec2f& b, double wavelength);
+  int add(int path, const LaneMesh& shape, uint32_t triangle, const Vec2f& b, double time,
+          double wavelength);
   /// Finds the frames, by the normals of `points`; d are the directions of the incident rays.
   void find_frames(const LambertianVertices& points, const float* d_x, const float* d_y,
                    const float* d_z);

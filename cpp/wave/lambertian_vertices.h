@@ -71,7 +71,8 @@ struct LambertianVertices {
     back[i] = both_sides ? 1 : 0;
   }
   /// Sets the vertex of the i-th path to these barycentrics of a triangle.
-  void set(int i, const LaneMesh& shape, uint32_t triangle, float b1, float b2, double wavelength) {
+  void set(int i, const LaneMesh& shape, uint32_t triangle, float b1, float b2, double time,
+           double wavelength) {
     const Mesh& mesh = *shape.mesh;
     set_place(i, mesh, triangle, b1, b2,
               shape.lambertian->lambertian.sides == Lambertian::Sides::both);
@@ -83,6 +84,7 @@ struct LambertianVertices {
     TexturedPoint& point = textured_[textured_count_++];
     point.path = i;
     point.lambertian = shape.lambertian;
+    point.at.time = time;
     point.at.wavelength = wavelength;
     if (shape.lambertian->uniform()) return;
     mesh.textured_point(triangle, {b1, b2}, point.at);

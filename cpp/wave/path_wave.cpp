@@ -121,12 +121,13 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
   if (mesh.emits || !in_lanes) find_single(i, hit, depth, in_lanes);
   if (!in_lanes || depth == rules_.most_edges()) return;
   if (!mesh.emits) arrive(place, walk(i), nullptr);
+  const Ray& ray = walk(i).ray;
   const Vec2f b(hit.u, hit.v);
   if (mesh.lambertian) {
-    lambertian_.set(i, mesh, hit.primitive, b.x, b.y, walk(i).ray.wavelength);
+    lambertian_.set(i, mesh, hit.primitive, b.x, b.y, ray.time, ray.wavelength);
   } else {
     lambertian_.set_place(i, *mesh.mesh, hit.primitive, b.x, b.y, true);
-    glossy_at_[i] = glossy_.add(i, mesh, hit.primitive, b, walk(i).ray.wavelength);
+    glossy_at_[i] = glossy_.add(i, mesh, hit.primitive, b, ray.time, ray.wavelength);
   }
 }
 

@@ -77,13 +77,15 @@ void BasicPathWave<Numbers>::sample_other_lights() {
   for (SingleVertex& single : singles_) {
     if (!single.samples_light()) continue;
     if (single.choice.emitter->infinite())
-      backgrounds_.add(single.choice, single.u_light, single.at.wavelength, single.light);
+      backgrounds_.add(single.choice, single.u_light, single.at.time, single.at.wavelength,
+                       single.light);
     else
       single.light = sample_light(single.path, single.at.p, single.choice, single.u_light);
   }
   for (int j = 0; j < sky_count_; ++j) {
     SkyVertex& vertex = sky_vertices_[j];
-    backgrounds_.add(vertex.choice, vertex.u, walk(vertex.path).ray.wavelength, vertex.light);
+    const Ray& ray = walk(vertex.path).ray;
+    backgrounds_.add(vertex.choice, vertex.u, ray.time, ray.wavelength, vertex.light);
   }
   backgrounds_.sample_all(*scene_);
 }

@@ -55,15 +55,15 @@ inline void SubpathWave::find_on_surface(int i, int place, const mlt::Hit& hit,
     find_surface_point(walk, at);
     find_light(walk, place, at);
   }
-  lambertian_.set(i, shape, hit.primitive, hit.u, hit.v, wavelength_[sample_[walk]]);
+  const int sample = sample_[walk];
+  lambertian_.set(i, shape, hit.primitive, hit.u, hit.v, time_[sample], wavelength_[sample]);
 }
 
 void SubpathWave::leave_scene(int walk, int place) {
   if (from_light_ || !rules_.wants(place) || scene_->infinite_emitters().empty()) return;
   const Ray& ray = exact_ray(walk);
   for (const uint32_t emitter : scene_->infinite_emitters())
-    hit_light(*scene_->emitters()[emitter], walk, place,
-              Scene::point_at_infinity(ray.d, ray.wavelength));
+    hit_light(*scene_->emitters()[emitter], walk, place, Scene::point_at_infinity(ray));
 }
 
 void SubpathWave::find_light(int walk, int place, const SurfacePoint& at) {

@@ -48,6 +48,12 @@ class Scene:
         Raises SceneError for one that is wrong.
         """
 
+    def animations(self) -> list[tuple[float, float]]:
+        """From when to when anything moves or changes.
+
+        The times of keys that follow each other and differ, of transforms and of colours.
+        """
+
     def parameters(self) -> dict[str, Any]:
         """What can be changed, by name, with its current value."""
 

@@ -74,7 +74,7 @@ inline std::vector<std::string> grey_scene_names() {
     return media_scene_names().count(name) > 0;
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
-  for (const char* name : {"volume_caustic", "solids", "lamps"}) names.push_back(name);
+  for (const char* name : {"volume_caustic", "solids", "lamps", "fading"}) names.push_back(name);
   return names;
 }
 
@@ -89,21 +89,36 @@ inline bool light_sees_all(const std::string& name) {
   return std::count(seen.begin(), seen.end(), name) > 0;
 }
 
-/// Scenes in which something moves from time 0 to 1.
+/// Scenes in which something moves or changes from time 0 to 1.
 inline std::vector<std::string> moving_scene_names() {
-  return {"moving_ball",       "moving_lamp", "moving_mirror", "moving_camera",   "moving_lens",
-          "spinning_instance", "moving_spot", "moving_point",  "moving_projector"};
+  return {"moving_ball",       "moving_lamp", "moving_mirror", "moving_camera",    "moving_lens",
+          "spinning_instance", "moving_spot", "moving_point",  "moving_projector", "fading"};
 }
 
 /// Scenes for mutations: long specular chains, nearly specular surfaces, caustics of lights that no
 /// walk can hit.
 inline std::vector<std::string> mutation_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* name :
-       {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic", "point_caustic",
-        "lens_through_mirror", "moving_mirror", "moving_lamp", "moving_lens", "spinning_instance",
-        "glass_torus", "beam", "prism_beam", "window_caustic", "volume_caustic", "clipped",
-        "clipped_fog", "solids", "openpbr"})
+  for (const char* name : {"mirrors",
+                           "near_specular",
+                           "near_specular_mirrors",
+                           "sun_caustic",
+                           "point_caustic",
+                           "lens_through_mirror",
+                           "moving_mirror",
+                           "moving_lamp",
+                           "moving_lens",
+                           "spinning_instance",
+                           "fading",
+                           "glass_torus",
+                           "beam",
+                           "prism_beam",
+                           "window_caustic",
+                           "volume_caustic",
+                           "clipped",
+                           "clipped_fog",
+                           "solids",
+                           "openpbr"})
     names.push_back(name);
   return names;
 }

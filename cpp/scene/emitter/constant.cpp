@@ -1,18 +1,16 @@
 // A sky of the same radiance in all directions.
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"
-#include "scene/texture/texture.h"
+#include "scene/emitter/lamp_color.h"
 
 namespace mlt {
 namespace {
 
 class ConstantSky final : public InfiniteEmitter {
  public:
-  explicit ConstantSky(Params& params) : radiance_(spectral_param(params, "radiance")) {}
+  explicit ConstantSky(Params& params) : radiance_(params, "radiance") {}
 
-  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override {
-    return radiance_.at(x0.wavelength);
-  }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return radiance_.at(x0); }
 
   PositionSample sample_position(const Vec2& u, double) const override {
     return {point_towards(sample_uniform_sphere(u)), uniform_sphere_pdf()};
@@ -22,10 +20,10 @@ class ConstantSky final : public InfiniteEmitter {
     return invert_uniform_sphere(x0.p);
   }
 
-  Color power() const override { return radiance_.rgb() * (4 * pi * disk_area()); }
+  Color power() const override { return radiance_.mean() * (4 * pi * disk_area()); }
 
  private:
-  SpectralColor radiance_;
+  LampColor radiance_;
 };
 
 }  // namespace
@@ -33,7 +31,7 @@ class ConstantSky final : public InfiniteEmitter {
 Plugin emitter_constant() {
   return make_emitter_plugin<ConstantSky>(
       "constant", "A sky of the same radiance in all directions.",
-      {{"radiance", ParamType::radiance, 1.0, "Radiance of the sky."}}, {"to_world"});
+      {{"radiance", ParamType::lamp, 1.0, "Radiance of the sky."}}, {"to_world"});
 }
 
 }  // namespace mlt

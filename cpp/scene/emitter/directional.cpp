@@ -2,7 +2,7 @@
 // direction, whose coefficient is the irradiance on a surface that faces it.
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"
-#include "scene/texture/texture.h"
+#include "scene/emitter/lamp_color.h"
 #include "scene/transform/transform_params.h"
 
 namespace mlt {
@@ -10,7 +10,7 @@ namespace {
 
 class DirectionalLight final : public InfiniteEmitter {
  public:
-  explicit DirectionalLight(Params& params) : irradiance_(spectral_param(params, "irradiance")) {
+  explicit DirectionalLight(Params& params) : irradiance_(params, "irradiance") {
     const bool given = params.has("direction");
     const std::string name = given ? "direction" : "to_world";
     Vec3 d;
@@ -25,9 +25,7 @@ class DirectionalLight final : public InfiniteEmitter {
     towards_ = -normalize(d);
   }
 
-  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override {
-    return irradiance_.at(x0.wavelength);
-  }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return irradiance_.at(x0); }
 
   PositionSample sample_position(const Vec2&, double) const override {
     return {point_towards(towards_), 1};
@@ -36,10 +34,10 @@ class DirectionalLight final : public InfiniteEmitter {
   Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
 
   bool delta() const override { return true; }
-  Color power() const override { return irradiance_.rgb() * disk_area(); }
+  Color power() const override { return irradiance_.mean() * disk_area(); }
 
  private:
-  SpectralColor irradiance_;
+  LampColor irradiance_;
   Vec3 towards_;
 };
 
@@ -48,7 +46,7 @@ class DirectionalLight final : public InfiniteEmitter {
 Plugin emitter_directional() {
   return make_emitter_plugin<DirectionalLight>(
       "directional", "Parallel light from infinitely far away.",
-      {{"irradiance", ParamType::radiance, 1.0, "Power per area perpendicular to the light."},
+      {{"irradiance", ParamType::lamp, 1.0, "Power per area perpendicular to the light."},
        {"direction", ParamType::point, no_default, "The direction in which light travels."},
        {"to_world", ParamType::transform, no_default,
         "Instead of direction: light travels along the image of the z axis."}});

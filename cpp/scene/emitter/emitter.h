@@ -22,11 +22,11 @@ struct PositionSample {
   double pdf;  ///< In the measure of `at`; 0 means that sampling failed.
 };
 
-/// A request for a position on a light at infinity, for a path of this wavelength: the result of
-/// sample_position(u) is stored in `sample`, and what comes from there in `radiance`.
+/// A request for a position on a light at infinity, for a path of this time and wavelength: the
+/// result of sample_position(u) is stored in `sample`, and what comes from there in `radiance`.
 struct PositionRequest {
   Vec2 u;
-  double wavelength;
+  double time, wavelength;
   PositionSample* sample;
   std::optional<Spectrum>* radiance;
 };
@@ -58,10 +58,11 @@ class Emitter : public Object {
 
   /// Samples a position. The densities and inverses below are those at the time of x0.
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
-  /// Samples many positions on a light at infinity, independent of time.
+  /// Samples many positions on a light at infinity; their densities are independent of time.
   virtual void sample_positions(const PositionRequest* requests, int count) const {
     for (int i = 0; i < count; ++i) {
       SurfacePoint& at = (*requests[i].sample = sample_position(requests[i].u, 0)).at;
+      at.time = requests[i].time;
       at.wavelength = requests[i].wavelength;
       *requests[i].radiance = eval(at, -at.p);
     }

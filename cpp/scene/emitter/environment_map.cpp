@@ -46,10 +46,10 @@ Color EnvironmentMap::radiance_at(double column, double polar_share) const {
   return scale_ * corners(i, j).at({x - i, y - j});
 }
 
-PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
+PositionSample EnvironmentMap::sample_position(const Vec2& u, double time) const {
   PositionSample sample;
   std::optional<Spectrum> radiance;
-  const PositionRequest request{u, rgb_lanes, &sample, &radiance};
+  const PositionRequest request{u, time, rgb_lanes, &sample, &radiance};
   sample_positions(&request, 1);
   return sample;
 }
@@ -110,6 +110,7 @@ void EnvironmentMap::take_four(const PositionRequest* requests, int count,
   for (int k = 0; k < count; ++k) {
     const PositionRequest& request = requests[k];
     *request.sample = {point_towards(axes_.to_world({d.x[k], d.y[k], d.z[k]})), pdf[k]};
+    request.sample->at.time = request.time;
     request.sample->at.wavelength = request.wavelength;
     *request.radiance =
         spectrum_of({rgb.x[k], rgb.y[k], rgb.z[k]}, RgbMeaning::light, request.wavelength);

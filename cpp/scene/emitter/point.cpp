@@ -2,7 +2,7 @@
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
-#include "scene/texture/texture.h"
+#include "scene/emitter/lamp_color.h"
 #include "scene/transform/transform_params.h"
 
 namespace mlt {
@@ -11,11 +11,9 @@ namespace {
 class PointLight final : public IsolatedEmitter {
  public:
   explicit PointLight(Params& params)
-      : IsolatedEmitter(read_motion(params)), intensity_(spectral_param(params, "intensity")) {}
+      : IsolatedEmitter(read_motion(params)), intensity_(params, "intensity") {}
 
-  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override {
-    return intensity_.at(x0.wavelength);
-  }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return intensity_.at(x0); }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     return {x0.p, sample_uniform_sphere(u), uniform_sphere_pdf()};
@@ -25,7 +23,7 @@ class PointLight final : public IsolatedEmitter {
     return invert_uniform_sphere(normalize(x1 - x0.p));
   }
 
-  Color power() const override { return intensity_.rgb() * (4 * pi); }
+  Color power() const override { return intensity_.mean() * (4 * pi); }
 
  private:
   static Motion read_motion(Params& params) {
@@ -36,7 +34,7 @@ class PointLight final : public IsolatedEmitter {
     return Motion(to_world);
   }
 
-  SpectralColor intensity_;
+  LampColor intensity_;
 };
 
 }  // namespace
@@ -44,7 +42,7 @@ class PointLight final : public IsolatedEmitter {
 Plugin emitter_point() {
   return make_emitter_plugin<PointLight>(
       "point", "A light of no size that shines equally in all directions.",
-      {{"intensity", ParamType::radiance, 1.0, "Power per solid angle."},
+      {{"intensity", ParamType::lamp, 1.0, "Power per solid angle."},
        {"position", ParamType::point, no_default, "Where it is; the origin if not given."},
        {"to_world", ParamType::motion, no_default,
         "Moves the origin there, instead of position."}});

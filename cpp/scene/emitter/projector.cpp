@@ -25,6 +25,7 @@ class Projector final : public TurnedEmitter {
     const auto u = place(local);
     if (!u) return Spectrum(0);
     SurfacePoint at;
+    at.time = x0.time;
     at.wavelength = x0.wavelength;
     at.uv = *u;
     return irradiance_->eval(at) * (pi * scale_ / cube(local.z));

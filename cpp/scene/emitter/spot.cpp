@@ -3,6 +3,7 @@
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
+#include "scene/emitter/lamp_color.h"
 #include "scene/texture/texture.h"
 
 namespace mlt {
@@ -17,7 +18,7 @@ class Spot final : public TurnedEmitter {
  public:
   explicit Spot(Params& params)
       : TurnedEmitter(motion_param(params, "to_world"), beam_axes),
-        intensity_(spectral_param(params, "intensity")),
+        intensity_(params, "intensity"),
         texture_(texture_param(params, "texture")) {
     const double cutoff = params.real_in("cutoff_angle", 1e-3, 179.999);
     const double beam =
@@ -37,7 +38,7 @@ class Spot final : public TurnedEmitter {
     const double theta = std::atan2(length(cross(frame.n, w)), dot(frame.n, w));
     if (theta >= cutoff_) return Spectrum(0);
     const double share = theta <= beam_ ? 1 : (cutoff_ - theta) / (cutoff_ - beam_);
-    return intensity_.at(x0.wavelength) * texture(frame.to_local(w), x0.wavelength) * share;
+    return intensity_.at(x0) * texture(frame.to_local(w), x0) * share;
   }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
@@ -55,19 +56,20 @@ class Spot final : public TurnedEmitter {
     const double width = cutoff_ - beam_;
     const double slope =
         width > 0 ? (std::sin(cutoff_) - std::sin(beam_)) / width : std::cos(beam_);
-    return intensity_.rgb() * texture_->mean() * (2 * pi * (1 - slope));
+    return intensity_.mean() * texture_->mean() * (2 * pi * (1 - slope));
   }
 
  private:
   /// The texture, projected on a plane across the axis, of which the cone fills the unit square.
-  Spectrum texture(const Vec3& local, double wavelength) const {
+  Spectrum texture(const Vec3& local, const SurfacePoint& x0) const {
     SurfacePoint at;
-    at.wavelength = wavelength;
+    at.time = x0.time;
+    at.wavelength = x0.wavelength;
     at.uv = Vec2(0.5) + 0.5 * Vec2(local) / (local.z * std::tan(cutoff_));
     return texture_->eval(at);
   }
 
-  SpectralColor intensity_;
+  LampColor intensity_;
   TexturePtr texture_;
   double cutoff_, beam_;  ///< In radians.
   double height_;         ///< 1 - cos(cutoff)
@@ -78,7 +80,7 @@ class Spot final : public TurnedEmitter {
 Plugin emitter_spot() {
   return make_emitter_plugin<Spot>(
       "spot", "A light of no size that shines into a cone about its z axis.",
-      {{"intensity", ParamType::radiance, 1.0, "Power per solid angle within the beam."},
+      {{"intensity", ParamType::lamp, 1.0, "Power per solid angle within the beam."},
        {"cutoff_angle", ParamType::real, 20.0,
         "Beyond this angle from the axis it is dark, degrees."},
        {"beam_width", ParamType::real, no_default,

@@ -2,6 +2,7 @@
 
 #include "math/colorimetry.h"
 #include "scene/light/brightest_light.h"
+#include "scene/texture/animation.h"
 
 namespace mlt {
 namespace {
@@ -127,7 +128,8 @@ namespace {
 
 bool is_emission(const Params& params, const std::string& name) {
   const ParamType type = params.schema().find(name)->type;
-  return type == ParamType::radiance || type == ParamType::emission || type == ParamType::volume;
+  return type == ParamType::radiance || type == ParamType::lamp || type == ParamType::emission ||
+         type == ParamType::volume;
 }
 
 SpectralColor color_from_0(Params& params, const std::string& name) {
@@ -139,13 +141,15 @@ SpectralColor color_from_0(Params& params, const std::string& name) {
   return color;
 }
 
+void check_bound(const Params& params, const std::string& name, double most) {
+  if (most > 1) params.fail(name, fmt::format("reaches {:f}, but must lie between 0 and 1", most));
+}
+
 }  // namespace
 
 SpectralColor spectral_param(Params& params, const std::string& name) {
   SpectralColor color = color_from_0(params, name);
-  const double most = max_component(color.rgb());
-  if (!is_emission(params, name) && most > 1)
-    params.fail(name, fmt::format("reaches {:f}, but must lie between 0 and 1", most));
+  if (!is_emission(params, name)) check_bound(params, name, max_component(color.rgb()));
   return color;
 }
 
@@ -163,7 +167,12 @@ TexturePtr nested_texture(Params& params, const std::string& name, bool bounded)
     if (is_emission(params, name)) return constant_texture(color);
     return texture;
   }
-  if (!is_emission(params, name)) return texture;
+  if (!is_emission(params, name)) {
+    if (const auto* animated = dynamic_cast<const AnimatedTexture*>(texture.get());
+        bounded && animated)
+      check_bound(params, name, animated->largest_color());
+    return texture;
+  }
   check_brightness(params, name, texture->mean());
   return as_light(texture);
 }

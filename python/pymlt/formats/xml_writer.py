@@ -47,9 +47,12 @@ def _value(parent: ET.Element, name: str, value: Any, folder: Path) -> None:
         ET.SubElement(parent, "spectrum", name=name, value=text)
     elif isinstance(value, dict) and value["type"] == "animation":
         animation = ET.SubElement(parent, "animation", name=name)
-        for time, transform in value.items():
+        for time, key in value.items():
             if time != "type":
-                _transform(animation, transform, time=str(time))
+                _value(animation, "value", key, folder)
+                animation[-1].attrib = {"time": str(time)} | {
+                    k: v for k, v in animation[-1].attrib.items() if k != "name"
+                }
     elif isinstance(value, dict):
         _plugin(parent, name, value, folder, named="name")
     elif isinstance(value, list) and name in SPECTRAL_LISTS:

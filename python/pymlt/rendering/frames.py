@@ -7,7 +7,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from .. import _core
 from .options import integer, number
@@ -137,34 +137,20 @@ def runs(scene: _core.Scene, timing: Timing, frames: list[int]) -> list[list[lis
 
 
 def is_still(scene: _core.Scene, timing: Timing, first: int, last: int) -> bool:
-    """Whether nothing moves from the first of these frames to the last."""
+    """Whether nothing moves or changes from the first of these frames to the last."""
     begin, end = timing.times(first)[0], timing.times(last)[1]
-    return all(is_constant(keys, begin, end) for keys in animations(scene))
-
-
-def animations(scene: _core.Scene) -> list[dict[float, Any]]:
-    """The keys of all that moves, by their times."""
-    return [dict(v) for v in scene.parameters().values() if isinstance(v, dict) and len(v) > 1]
-
-
-def is_constant(keys: dict[float, Any], begin: float, end: float) -> bool:
-    """Whether what is linear between the keys stays the same from one time to another."""
-    times = sorted(keys)
-    first = max((t for t in times if t <= begin), default=times[0])
-    last = min((t for t in times if t >= end), default=times[-1])
-    seen = [keys[t] for t in times if first <= t <= last]
-    return all(value == seen[0] for value in seen)
+    return not any(start < end and stop > begin for start, stop in scene.animations())
 
 
 def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str | None:
-    """The warning for a shot in which nothing moves."""
-    first, last = timing.times(min(frames))[0], timing.times(max(frames))[1]
-    keys = animations(scene)
-    if not keys:
+    """The warning for a shot in which nothing moves or changes."""
+    animations = scene.animations()
+    if not animations:
         return "nothing in the scene has an animation: all frames show the same"
-    if any(min(times) < last and max(times) > first for times in keys):
+    if not is_still(scene, timing, min(frames), max(frames)):
         return None
-    start, end = min(map(min, keys)), max(map(max, keys))
+    first, last = timing.times(min(frames))[0], timing.times(max(frames))[1]
+    start, end = min(start for start, _ in animations), max(end for _, end in animations)
     return (
         f"nothing moves from {first:g} to {last:g} s, the time of these frames: the scene's "
         f"animations go from {start:g} to {end:g} s"

@@ -62,7 +62,7 @@ def _value(element, folder: Path):
         case "transform":
             return _transform(element)
         case "animation":
-            return {"type": "animation"} | {key.get("time"): _transform(key) for key in element}
+            return {"type": "animation"} | {key.get("time"): _value(key, folder) for key in element}
         case "ref":
             return {"type": "ref", "id": element.get("id")}
     return {"type": element.get("type")} | _children(element, folder)

@@ -57,7 +57,7 @@ TEST(Scene, OneNumberIsAnEqualEnergySpectrumOfALightAndAGreySurface) {
                     "", plugins(), {});
     EXPECT_EQ(albedo(loaded, 0), Color(0.5));
     const Emitter& sky = *loaded.scene->emitters().at(0);
-    const SurfacePoint far = loaded.scene->point_at_infinity({0, 0, 1});
+    const SurfacePoint far = loaded.scene->point_at_infinity({{}, {0, 0, 1}});
     return sky.eval(far, {0, 0, -1}).rgb();
   };
   EXPECT_EQ(colors("0.6.0"), Color(2));
@@ -73,7 +73,7 @@ std::pair<Color, Color> colors_of(const std::string& radiance, const std::string
            "<shape type='sphere'><bsdf type='diffuse'>" + reflectance + "</bsdf></shape>");
   EXPECT_TRUE(loaded.warnings.empty());
   const Emitter& sky = *loaded.scene->emitters().at(0);
-  const SurfacePoint far = loaded.scene->point_at_infinity({0, 0, 1});
+  const SurfacePoint far = loaded.scene->point_at_infinity({{}, {0, 0, 1}});
   return {sky.eval(far, {0, 0, -1}).rgb(), albedo(loaded, 0)};
 }
 

@@ -200,13 +200,14 @@ TEST(Emitters, ManyPositionsAreThoseOfSingleOnes) {
     std::vector<PositionRequest> requests;
     std::vector<std::optional<Spectrum>> radiances(count);
     for (int i = 0; i < count; ++i)
-      requests.push_back({{rng.next(), rng.next()}, 550, &samples[i], &radiances[i]});
+      requests.push_back({{rng.next(), rng.next()}, 0.3, 550, &samples[i], &radiances[i]});
     light.emitter->sample_positions(requests.data(), count);
     for (const PositionRequest& request : requests) {
       const PositionSample alone = light.emitter->sample_direct({0, 0, 0}, request.u, 0.3);
       EXPECT_EQ(request.sample->at.p, alone.at.p) << light.name;
       EXPECT_TRUE(request.sample->at.infinite()) << light.name;
       EXPECT_EQ(request.sample->pdf, alone.pdf) << light.name;
+      EXPECT_EQ(request.sample->at.time, 0.3) << light.name;
       EXPECT_EQ(request.sample->at.wavelength, 550) << light.name;
       const Spectrum seen = light.emitter->eval(request.sample->at, -alone.at.p);
       const Spectrum& known = **request.radiance;
