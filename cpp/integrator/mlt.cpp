@@ -12,6 +12,7 @@ class MltIntegrator : public Integrator {
  public:
   explicit MltIntegrator(Params& params) : metropolis_(metropolis_settings(params)) {
     settings_.rules = path_rules(params);
+    settings_.rules.through_boundaries = true;
     const std::string independent = params.text("independent");
     if (independent == "bdpt") metropolis_.techniques = SampleTechniques::all;
     if (independent == "path") metropolis_.techniques = SampleTechniques::path_tracing;

@@ -1,6 +1,7 @@
 #include "mutation/path_target.h"
 
 #include "mutation/path_seeds.h"
+#include "path/refracted_light.h"
 
 namespace mlt {
 
@@ -41,6 +42,17 @@ void PathTarget::evaluate_target(PathState& x) const {
     x.known.over_density.set(tau);
     x.target *= weights_.of_chain(tau);
   }
+}
+
+double PathTarget::refracted_density(const PathState& x) const {
+  if (x.edges() < 3 || !rules_.through_boundaries || !scene_->has_rough_boundaries()) return 0;
+  const SurfacePoint &z = x.path[0].at, &y = x.path[1].at, &inside = x.path[2].at;
+  const Vec3 w = x.terms.direction(2, -1);
+  if (!inside.in_medium() || !RefractedLight::ends_at(*scene_, y, w)) return 0;
+  RayCounts rays;
+  const Walker walker{*scene_, x.path.time, rays};
+  const Emitter& light = *scene_->emitters()[x.path[0].emitter];
+  return refracted_pdf(walker, light, inside, w, z) * x.terms[1].G;
 }
 
 PathSeeds PathTarget::seeds() const {

@@ -105,13 +105,16 @@ class PathTarget {
   double density(const PathState& x) const {
     return techniques_ == SampleTechniques::all
                ? bidirectional_density(x)
-               : path_tracing_density(ContributionMeasure{x.terms});
+               : path_tracing_density(ContributionMeasure{x.terms}, refracted_density(x));
   }
   double bidirectional_density(const PathState& x) const {
     const ManifoldTechnique manifold =
         manifold_ ? manifold_->technique(x.path, x.terms) : ManifoldTechnique();
     return total_density(ContributionMeasure{x.terms}, manifold);
   }
+
+  /// The density of x_0 and x_1 in the technique of refracted_light.h.
+  double refracted_density(const PathState& x) const;
 
   ScenePtr scene_;
   PathRules rules_;

@@ -81,13 +81,17 @@ double total_density(const Measure& in, const ManifoldTechnique& manifold = {}) 
 }
 
 /// p_{0,k+1}(x) + p_{1,k}(x), the density of the two techniques of path tracing, which does not
-/// join the lens to a light.
+/// join the lens to a light; and of a third one that makes x_0 and x_1 for x_2 with the density
+/// `refracted` (refracted_light.h).
 template <class Measure>
-double path_tracing_density(const Measure& in) {
+double path_tracing_density(const Measure& in, double refracted = 0) {
   const PathTerms& x = in.x;
   double sum = can_sample(x, 0) ? in.joint(0) * from_camera(in, 0) : 0;
   if (x.edges() > 1 && can_sample(x, 1)) sum += x.direct * in.joint(1);
-  for (int i = 1; i <= x.edges(); ++i) sum *= from_camera(in, i);
+  for (int i = 1; i <= x.edges(); ++i) {
+    sum *= from_camera(in, i);
+    if (i == 1 && refracted > 0) sum += refracted * unsampled(in, 0, 2);
+  }
   return sum;
 }
 

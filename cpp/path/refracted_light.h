@@ -32,6 +32,11 @@ class RefractedLight {
     share_ = std::min(1.0, most_share * mean(leg.transmittance));
   }
 
+  /// Whether a ray along w that is sampled ends at y, whatever it passes before.
+  static bool ends_at(const Scene& scene, const SurfacePoint& y, const Vec3& w) {
+    return !y.in_medium() && scene.passage(y, w).is_blocked();
+  }
+
   /// Whether a rough boundary lies between them, so that no light goes straight.
   bool exists() const { return exists_; }
   struct Direction {
@@ -98,6 +103,17 @@ class RefractedLight {
   double share_ = 0;  ///< The probability with which a direction is sampled.
 };
 
+/// The density with which the technique samples z, in its own measure, times that of the direction
+/// w from x, in solid angle.
+inline double refracted_pdf(const Walker& walker, const Emitter& light, const SurfacePoint& x,
+                            const Vec3& w, const SurfacePoint& z) {
+  if (!RefractedLight::serves(light)) return 0;
+  const double entering = RefractedLight(walker, x, z).pdf(w);
+  if (!(entering > 0)) return 0;
+  const double choice = walker.scene.emitter_probability_for(light.index(), x.p);
+  return choice * light.pdf_direct(x.p, z) * entering;
+}
+
 /// A leg of a walk from a vertex x in a medium to a surface.
 struct LegInside {
   const Walker* walker = nullptr;
@@ -107,13 +123,10 @@ struct LegInside {
 
   /// The density in solid angle with which the technique makes the direction wz from the end y of
   /// the leg to z, over the probability of coming there by the walk.
-  double direct_pdf(const Emitter& emitter, const Vec3& y, const SurfacePoint& z,
+  double direct_pdf(const Emitter& light, const Vec3& y, const SurfacePoint& z,
                     const Vec3& wz) const {
-    if (!x || !(pdf > 0) || !RefractedLight::serves(emitter)) return 0;
-    const double entering = RefractedLight(*walker, *x, z).pdf(w);
-    if (!(entering > 0)) return 0;
-    const double choice = walker->scene.emitter_probability_for(emitter.index(), x->p);
-    return choice * emitter.pdf_direct(x->p, z) * per_solid_angle(y, z, wz) * (entering / pdf);
+    if (!x || !(pdf > 0)) return 0;
+    return refracted_pdf(*walker, light, *x, w, z) * per_solid_angle(y, z, wz) / pdf;
   }
 };
 
@@ -129,7 +142,7 @@ struct LegsInside {
   }
   /// Ends it at y.
   void arrive(const SurfacePoint& y, const Vec3& w, double pdf) {
-    if (y.in_medium()) now.x.reset();
+    if (now.x && !RefractedLight::ends_at(now.walker->scene, y, w)) now.x.reset();
     now.w = w;
     now.pdf = pdf;
   }

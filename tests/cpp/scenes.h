@@ -118,7 +118,8 @@ inline std::vector<std::string> mutation_scene_names() {
                            "clipped",
                            "clipped_fog",
                            "solids",
-                           "openpbr"})
+                           "openpbr",
+                           "wax"})
     names.push_back(name);
   return names;
 }

@@ -39,7 +39,9 @@ TEST(ClampingWeights, AreNumbersWhereThereIsNoTarget) {
 
 /// With a map that tells regions apart.
 PathTarget target_of(const TestScene& made) {
-  PathTarget target(made.scene, {8});
+  PathRules rules{8};
+  rules.through_boundaries = true;
+  PathTarget target(made.scene, rules);
   TargetMap map = blank_image(made.scene->camera().raster());
   map.add({3, 4}, 1);
   map.finish();
@@ -131,6 +133,8 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
     }
   }
   if (errors.empty()) GTEST_SKIP() << "path tracing finds no light here";
+  const auto differs = [](double error) { return !(error < 0.01); };
+  EXPECT_LE(std::count_if(errors.begin(), errors.end(), differs), errors.size() / 500);
   EXPECT_LT(median(errors), 1e-6);
   EXPECT_LE(wrong, errors.size() / 1000);
   if (GetParam() == "cornell") {
