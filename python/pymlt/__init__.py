@@ -49,7 +49,8 @@ from .rendering.merging import merge
 from .rendering.mixing import mix
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result
-from .rendering.shot import Frame, Shot, render_shot
+from .rendering.shot import render_shot
+from .rendering.shot_result import Frame, Shot
 from .rendering.start import (
     render,
     render_bands,

@@ -149,11 +149,6 @@ def test_frames_whose_files_exist_are_skipped_if_asked(tmp_path):
     assert mlt.read_image(tmp_path / "1.exr").shape == (12, 16, 3)
 
 
-def test_a_shot_has_no_checkpoint(tmp_path):
-    with pytest.raises(mlt.UsageError, match="skip_existing"):
-        mlt.render_shot(moving(), frames=1, output="#.exr", checkpoint=tmp_path / "a.mlt")
-
-
 # ---- frames that one render has
 
 
@@ -325,7 +320,7 @@ def test_the_command_line_makes_a_film(scene, tmp_path):
         (["--frames", "1:3", "-o", "a.exr"], "write a.####.exr"),
         (["--fps", "24", "-o", "a.exr"], "--fps needs --frames"),
         (["--skip-existing", "-o", "a.exr"], "--skip-existing needs --frames"),
-        (["--frames", "1:3", "-o", "#.exr", "--checkpoint", "a"], "given with --checkpoint"),
+        (["--frames", "1:3", "-o", "#.exr", "--every", "9"], "--every needs --checkpoint"),
         (["--frames", "1:3", "-o", "#.exr", "--fps", "0"], "should be a number above 0"),
         (["--frames", "1:3", "-o", "a.mp4"], "add -o shot.####.exr"),
     ],

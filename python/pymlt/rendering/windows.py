@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -102,7 +103,8 @@ class WindowRender:
         if self.count > 1:
             self.integrator = _core.with_light_layers(self.integrator, False, [], exposures=True)
 
-    def start(self, options: RenderOptions) -> Job:
+    def start(self, options: RenderOptions, *, goes_on: bool = False) -> Job:
+        """Begins, or goes on from its checkpoint."""
         if self.count > 1:
             spp, time = options.spp, options.time
             if spp is None and time is None:
@@ -110,8 +112,10 @@ class WindowRender:
             own = sum(self.window.weights)
             options = replace(options, spp=spp and spp * own, time=time and time * own)
             options = replace(options, seed=options.seed + self.window.frames[0])
-        self.job = Job(self.scene, self.integrator, options)._start()
-        return self.job
+        self.job = Job(self.scene, self.integrator, options)
+        if goes_on and options.checkpoint:
+            _core.Checkpoint(os.fspath(options.checkpoint)).resume(self.job._job)
+        return self.job._start()
 
     @cached_property
     def whole(self) -> Result:
