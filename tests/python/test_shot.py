@@ -11,7 +11,15 @@ from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
 from pymlt.pictures.luminance import target_luminance
-from pymlt.rendering.frames import check_pattern, file_of, parse_frames, runs, scene_at, timing
+from pymlt.rendering.frames import (
+    check_pattern,
+    file_of,
+    parse_frames,
+    runs,
+    scene_at,
+    timing,
+    told,
+)
 from pymlt.rendering.windows import windows
 
 
@@ -56,6 +64,10 @@ def test_frames_are_told_by_their_numbers(frames, numbers):
 def test_what_is_no_frames_is_refused(frames, right):
     with pytest.raises(mlt.UsageError, match=right):
         parse_frames(frames)
+
+
+def test_frames_are_told_as_they_are_given():
+    assert told([1, 2, 3, 9, 12, 13]) == "1:3,9,12:13"
 
 
 def test_files_have_the_number_of_the_frame():

@@ -12,7 +12,6 @@ import pymlt as mlt
 import pymlt.rendering.shot as rendering_shot
 from pymlt.cli import main
 from pymlt.images import read_with_layers
-from pymlt.rendering.shot_checkpoint import told
 from pymlt.rendering.windows import WindowRender
 
 #: Three windows; those that follow each other share a frame.
@@ -238,10 +237,6 @@ def test_files_that_are_no_checkpoint_of_a_shot_are_refused(tmp_path, kind):
         with pytest.raises(mlt.FileError, match="no checkpoint of a shot"):
             shot(tmp_path, WINDOWS, checkpoint=file, overwrite=True)
     assert file.read_bytes() == bad
-
-
-def test_frames_are_told_as_they_are_given():
-    assert told([1, 2, 3, 9, 12, 13]) == "1:3,9,12:13"
 
 
 # ---- the command line

@@ -6,6 +6,7 @@ import math
 import os
 import warnings
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -75,8 +76,10 @@ def render_frames(
         else:
             rendered = together_in(start, windows(numbers, most), kept)
         for frame, result, flicker in rendered:
-            yield shown[frame][0], result, flicker
-            yield from ((same, result, 0.0) for same in shown[frame][1:])
+            for number in shown[frame]:
+                metadata = result.metadata | {"frame": f"{number}"}
+                changed = flicker if number == shown[frame][0] else 0.0
+                yield number, replace(result, metadata=metadata), changed
         if kept.interrupted:
             return
     kept.end()

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from .. import _core
-from .frames import Timing
+from .frames import Timing, told
 from .options import RenderOptions
 from .result import Result
 from .shot_file import read_shot, write_shot
@@ -48,17 +48,6 @@ def shot_record(
         "the scene's hash": scene.hash,
         "the version of pymlt": _core.__version__,
     }
-
-
-def told(frames: list[int]) -> str:
-    """1:24,31 for the numbers that it means."""
-    stretches: list[list[int]] = []
-    for frame in frames:
-        if stretches and frame == stretches[-1][1] + 1:
-            stretches[-1][1] = frame
-        else:
-            stretches.append([frame, frame])
-    return ",".join(f"{a}" if a == b else f"{a}:{b}" for a, b in stretches)
 
 
 @dataclass
