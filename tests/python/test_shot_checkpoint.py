@@ -12,6 +12,7 @@ import pymlt as mlt
 import pymlt.rendering.shot as rendering_shot
 from pymlt.cli import main
 from pymlt.images import read_with_layers
+from pymlt.rendering import shot_checkpoint
 from pymlt.rendering.windows import WindowRender
 
 #: Three windows; those that follow each other share a frame.
@@ -212,6 +213,21 @@ def test_the_checkpoint_of_a_shot_is_replaced_only_if_asked(uninterrupted, tmp_p
     with pytest.raises(mlt.FileError, match="go on with a shot by --resume"):
         shot(tmp_path, ALONE, checkpoint=file, seed=3)
     shot(tmp_path, ALONE, checkpoint=file, seed=3, overwrite=True)
+    assert [path.name for path in tmp_path.glob("*.mlt*")] == ["shot.mlt"]
+
+
+def test_a_checkpoint_that_cannot_be_written_is_a_warning(uninterrupted, tmp_path, monkeypatch):
+    full, write = Interruption(1), shot_checkpoint.write_shot
+
+    def instead(path, state):
+        if full.now():
+            raise mlt.FileError("no space is left")
+        write(path, state)
+
+    monkeypatch.setattr(shot_checkpoint, "write_shot", instead)
+    with pytest.warns(UserWarning, match="checkpoint could not be written: no space is left"):
+        whole = shot(tmp_path, ALONE, checkpoint=tmp_path / "shot.mlt")
+    assert same(whole, uninterrupted["alone"])
     assert [path.name for path in tmp_path.glob("*.mlt*")] == ["shot.mlt"]
 
 

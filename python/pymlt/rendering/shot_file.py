@@ -1,4 +1,4 @@
-"""The file of a shot's checkpoint: a zip file of arrays, one of which is a text in JSON."""
+"""The file of a shot's checkpoint: a zip file of arrays, one of which is JSON, deflated."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import json
 import zipfile
 import zlib
 from collections.abc import Mapping
-from dataclasses import asdict, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
@@ -36,8 +36,8 @@ def write_shot(path: str, state: dict[str, Any]) -> None:
         arrays |= {f"{frame}/{i}": layer for i, layer in enumerate(layers.values())}
         results[frame] = {**whole, "layers": list(layers)}
     told = {name: state[name] for name in TOLD}
-    told |= {"frames": [asdict(frame) for frame in state["frames"]], "fading": results}
-    text = np.frombuffer(json.dumps(told).encode(), np.uint8)
+    told |= {"frames": [vars(frame) for frame in state["frames"]], "fading": results}
+    text = np.frombuffer(zlib.compress(json.dumps(told).encode()), np.uint8)
     file = io.BytesIO()
     np.savez(file, told=text, **arrays)
     _core.replace_file(path, file.getvalue())
@@ -58,7 +58,7 @@ def read_shot(path: str) -> dict[str, Any]:
 
 
 def _state_of(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
-    told = json.loads(arrays["told"].tobytes())
+    told = json.loads(zlib.decompress(arrays["told"].tobytes()))
     state = {name: told[name] for name in TOLD}
     state["frames"] = [Frame(**frame) for frame in told["frames"]]
     state["changes"] = {int(frame): errors for frame, errors in told["changes"].items()}
