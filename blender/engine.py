@@ -118,7 +118,7 @@ def statistics(found: mlt.Result) -> str:
     error, frames = stats.get("denoised_error", stats["error"]), stats.get("exposures", 1)
     known = "" if error is None else f", error {100 * error:.2g} %"
     of_each = f" in each of {frames} frames" if frames > 1 else ""
-    return f"{stats['spp_done'] / frames:.4g} samples per pixel{of_each}{known}"
+    return f"{stats['spp_done']:.4g} samples per pixel{of_each}{known}"
 
 
 _told: set[str] = set()

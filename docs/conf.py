@@ -88,7 +88,7 @@ TOPICS = {
     ),
     "results": (
         "Results",
-        "Result Groups Frame Shot Technique compare comparison_figure merge mix",
+        "Result Groups Frame Shot Technique compare comparison_figure merge merge_shots mix",
         [],
     ),
     "images": (

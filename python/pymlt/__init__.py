@@ -45,11 +45,13 @@ from .pictures.techniques import Technique
 from .pictures.tonemapping import tonemap
 from .rendering.film import write_film
 from .rendering.job import Job
+from .rendering.merged_shots import merge_shots
 from .rendering.merging import merge
 from .rendering.mixing import mix
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result
-from .rendering.shot import Frame, Shot, render_shot
+from .rendering.shot import render_shot
+from .rendering.shot_result import Frame, Shot
 from .rendering.start import (
     render,
     render_bands,
@@ -111,6 +113,7 @@ __all__ = [
     "load_materials",
     "load_string",
     "merge",
+    "merge_shots",
     "mix",
     "race",
     "read_image",

@@ -11,7 +11,15 @@ from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
 from pymlt.pictures.luminance import target_luminance
-from pymlt.rendering.frames import check_pattern, file_of, parse_frames, runs, scene_at, timing
+from pymlt.rendering.frames import (
+    check_pattern,
+    file_of,
+    parse_frames,
+    runs,
+    scene_at,
+    timing,
+    told,
+)
 from pymlt.rendering.windows import windows
 
 
@@ -56,6 +64,10 @@ def test_frames_are_told_by_their_numbers(frames, numbers):
 def test_what_is_no_frames_is_refused(frames, right):
     with pytest.raises(mlt.UsageError, match=right):
         parse_frames(frames)
+
+
+def test_frames_are_told_as_they_are_given():
+    assert told([1, 2, 3, 9, 12, 13]) == "1:3,9,12:13"
 
 
 def test_files_have_the_number_of_the_frame():
@@ -147,11 +159,6 @@ def test_frames_whose_files_exist_are_skipped_if_asked(tmp_path):
     again = mlt.render_shot(moving(), **arguments)
     assert again.skipped == []
     assert mlt.read_image(tmp_path / "1.exr").shape == (12, 16, 3)
-
-
-def test_a_shot_has_no_checkpoint(tmp_path):
-    with pytest.raises(mlt.UsageError, match="skip_existing"):
-        mlt.render_shot(moving(), frames=1, output="#.exr", checkpoint=tmp_path / "a.mlt")
 
 
 # ---- frames that one render has
@@ -325,7 +332,7 @@ def test_the_command_line_makes_a_film(scene, tmp_path):
         (["--frames", "1:3", "-o", "a.exr"], "write a.####.exr"),
         (["--fps", "24", "-o", "a.exr"], "--fps needs --frames"),
         (["--skip-existing", "-o", "a.exr"], "--skip-existing needs --frames"),
-        (["--frames", "1:3", "-o", "#.exr", "--checkpoint", "a"], "given with --checkpoint"),
+        (["--frames", "1:3", "-o", "#.exr", "--every", "9"], "--every needs --checkpoint"),
         (["--frames", "1:3", "-o", "#.exr", "--fps", "0"], "should be a number above 0"),
         (["--frames", "1:3", "-o", "a.mp4"], "add -o shot.####.exr"),
     ],

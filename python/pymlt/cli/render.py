@@ -62,7 +62,7 @@ def add_arguments(command) -> None:
 def check(args) -> None:
     try:
         values = given(args)
-        _core.check_flags(set(values) - SAVED if args.resume else set(values))
+        _core.check_flags(flags_to_check(args, values))
         files = {name: values[name] for name in values if FLAGS[name].is_file}
         _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
         if args.bands and (args.checkpoint or args.resume):
@@ -70,6 +70,15 @@ def check(args) -> None:
         check_shot(args)
     except _core.UsageError as error:
         raise _core.UsageError(f"{error}; see pymlt render --help") from None
+
+
+def flags_to_check(args, values: dict) -> set[str]:
+    """The flags that are given, without those that a checkpoint of one render repeats."""
+    if not args.resume:
+        return set(values)
+    if args.frames:  # all that was said of a shot is said again
+        return {*values, "checkpoint"} - {"resume"}
+    return set(values) - SAVED
 
 
 def start(args, signals: Signals) -> Job:

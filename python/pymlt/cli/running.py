@@ -29,7 +29,7 @@ def options_of(args) -> RenderOptions:
         **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
     )
     options.fireflies, options.denoise = args.fireflies, args.denoise
-    if args.denoise and args.filter is None and not args.resume:
+    if args.denoise and args.filter is None and (args.frames or not args.resume):
         args.filter = "box"
     return options
 
@@ -48,9 +48,11 @@ def check_outputs(args, paths: list[str]) -> None:
 
 def wait(job: Job, signals: Signals, quiet: bool) -> None:
     with progress_bar(False if quiet else None) as show:
-        while not job.wait(0.1):
-            if signals.caught:
+        while True:
+            if signals.caught:  # also before it began, as between the frames of a shot
                 job.cancel()
+            if job.wait(0.1):
+                return
             show(job.progress, job._figures)
 
 

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import argparse
 import json
+from zipfile import is_zipfile
 
 from .. import _core
 from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
 from ..rendering.film import is_film, write_film
 from ..rendering.frames import (
+    Timing,
     check_pattern,
     file_of,
     parse_frames,
     stands_still,
     timing,
 )
-from ..rendering.shot import Frame, Shot, frames_to_render, render_frames
+from ..rendering.options import RenderOptions
+from ..rendering.shot import frames_to_render, render_frames
+from ..rendering.shot_checkpoint import ShotCheckpoint, kept_shot, shot_record
+from ..rendering.shot_result import Frame, Shot
 from ..rendering.summary import percent
 from .common import load_scene, reader, say, warn
 from .display import exposure
@@ -63,10 +68,13 @@ def check_shot(args) -> None:
         for name in (*TIMES, "together", "skip_existing"):
             if getattr(args, name) not in (None, False):
                 raise _core.UsageError(f"--{name.replace('_', '-')} needs --frames")
+        if args.resume and is_zipfile(args.resume):
+            raise _core.UsageError(
+                f"{args.resume} is the checkpoint of a shot; give its whole command, with --frames"
+            )
         return
-    for name in ("bands", "checkpoint", "resume"):
-        if getattr(args, name):
-            raise _core.UsageError(f"--frames cannot be given with --{name}")
+    if args.bands:
+        raise _core.UsageError("--frames cannot be given with --bands")
     sequences, films = outputs(args)
     for path in sequences:
         check_pattern(path)
@@ -90,10 +98,8 @@ def run_shot(args) -> int:
         )
     )
     sequences, films = outputs(args)
-    to_come, skipped = frames_to_render(args.frames, sequences, args.skip_existing)
     check_outputs(args, [file_of(path, args.frames[0]) for path in sequences])
-    options = options_of(args)
-    shot, complete = Shot(skipped=skipped), True
+    options, complete = options_of(args), True
     with Signals() as signals:
         scene = signals.abandonable(lambda: load_scene(args))
         still = stands_still(scene, when, args.frames)
@@ -103,11 +109,13 @@ def run_shot(args) -> int:
         def integrator_of(seen: _core.Scene) -> _core.Integrator:
             return as_integrator(seen, args.integrator, args.parameters)
 
+        kept = checkpoint_of(args, scene, integrator_of(scene), options, when)
+        shot = kept.shot(args.frames)
         for number, result, flicker in render_frames(
             scene,
             integrator_of,
             when,
-            to_come,
+            kept,
             options,
             lambda job, _: wait(job, signals, args.quiet),
             args.together,
@@ -126,6 +134,24 @@ def run_shot(args) -> int:
             for path in films:
                 write_film(path, files, fps=when.fps, exposure=exposure(args), tonemap=args.tonemap)
         return ended(args, shot, complete, signals.caught)
+
+
+def checkpoint_of(
+    args,
+    scene: _core.Scene,
+    integrator: _core.Integrator,
+    options: RenderOptions,
+    when: Timing,
+) -> ShotCheckpoint:
+    """How far the shot is, which goes on if --resume says so."""
+    files = outputs(args)[0]
+    record = shot_record(scene, integrator, options, when, args.frames, files, args.together)
+    to_come = frames_to_render(args.frames, files, args.skip_existing)
+    kept = kept_shot(options, args.resume, record, to_come)
+    if args.resume and not args.quiet:
+        left = len(kept.to_come) - len(kept.frames)
+        say(f"going on after {len(kept.frames)} frames; {left} frames to come")
+    return kept
 
 
 def tell(args, warnings: list[str]) -> None:

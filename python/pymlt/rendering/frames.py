@@ -49,6 +49,17 @@ def _parse_part(part: str, frames: str) -> range:
     return range(first, last + 1)
 
 
+def told(frames: list[int]) -> str:
+    """1:24,31 for the numbers that it means."""
+    stretches: list[list[int]] = []
+    for frame in frames:
+        if stretches and frame == stretches[-1][1] + 1:
+            stretches[-1][1] = frame
+        else:
+            stretches.append([frame, frame])
+    return ",".join(f"{a}" if a == b else f"{a}:{b}" for a, b in stretches)
+
+
 def check_pattern(pattern: str | os.PathLike[str]) -> str:
     """The name of the files of frames, with one place for the number. Raises UsageError."""
     text = os.fspath(pattern)

@@ -126,8 +126,9 @@ def _check(renders: list[_Render], force: bool) -> None:
             raise _core.UsageError(
                 f"{first.name} and {other.name} differ in size: {_size(first)} and {_size(other)}"
             )
-        for name in () if force else ("scene", "integrator"):
-            if other.metadata[name] != first.metadata[name]:
+        for name in () if force else ("frame", "scene", "integrator"):
+            values = {part.metadata[name] for part in (first, other) if name in part.metadata}
+            if len(values) > 1:
                 raise _core.UsageError(
                     f"{first.name} and {other.name} {_difference(name, first, other)}; --force "
                     "(force=True) merges them all the same"
@@ -149,6 +150,8 @@ def _size(render: _Render) -> str:
 
 
 def _difference(name: str, a: _Render, b: _Render) -> str:
+    if name == "frame":
+        return f"are frames {a.metadata[name]} and {b.metadata[name]} of a shot"
     if name == "scene":
         return "are renders of different scenes"
     a, b = (json.loads(render.metadata["integrator"]) for render in (a, b))

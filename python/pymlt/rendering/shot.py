@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 import os
 import warnings
-from collections import defaultdict
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 from .. import _core
@@ -20,53 +20,9 @@ from .job import Job
 from .options import RenderOptions
 from .progress import progress_bar
 from .result import Result
-from .stats import Stats
+from .shot_checkpoint import ShotCheckpoint, kept_shot, shot_record
+from .shot_result import Frame, Shot
 from .windows import IntegratorOf, Window, WindowRender, faded, frames_together, whole, windows
-
-
-@dataclass
-class Frame:
-    """A frame of a shot that has been rendered."""
-
-    number: int
-    files: list[str]  #: where its image is
-    stats: Stats  #: what its render tells about itself
-    #: the relative error of the change from the frame before; None for the first frame, and if it
-    #: is not known
-    flicker: float | None
-
-
-@dataclass
-class Shot:
-    """What the renders of the frames of a shot left behind."""
-
-    frames: list[Frame] = field(default_factory=list)
-    skipped: list[int] = field(default_factory=list)  #: frames whose files existed
-
-    @property
-    def error(self) -> float | None:
-        """The root of the mean square of the frames' `stats["error"]`."""
-        return _root_mean_square(frame.stats.get("error") for frame in self.frames)
-
-    @property
-    def flicker(self) -> float | None:
-        """The root of the mean square of the flicker of frames."""
-        return _root_mean_square(frame.flicker for frame in self.frames)
-
-    @property
-    def stats(self) -> dict[str, Any]:
-        """What `--stats` writes of a shot."""
-        frames = [
-            {"frame": f.number, "files": f.files, "flicker": f.flicker, "stats": f.stats}
-            for f in self.frames
-        ]
-        whole = {"error": self.error, "flicker": self.flicker, "skipped": self.skipped}
-        return {**whole, "frames": frames}
-
-
-def _root_mean_square(values) -> float | None:
-    known = [value for value in values if value is not None]
-    return math.sqrt(sum(v * v for v in known) / len(known)) if known else None
 
 
 def root_of_squares(errors: list[float | None]) -> float | None:
@@ -75,15 +31,13 @@ def root_of_squares(errors: list[float | None]) -> float | None:
     return math.hypot(*known) if known and len(known) == len(errors) else None
 
 
-def frames_to_render(
-    frames: list[int], patterns: list[str], skip_existing: bool
-) -> tuple[list[int], list[int]]:
-    """The frames to be rendered, and those of which all files exist, if these are skipped."""
+def frames_to_render(frames: list[int], patterns: list[str], skip_existing: bool) -> list[int]:
+    """The frames, without those of which all files exist, if these are skipped."""
 
     def exists(frame: int) -> bool:
         return skip_existing and all(os.path.exists(file_of(p, frame)) for p in patterns)
 
-    return [f for f in frames if not exists(f)], [f for f in frames if exists(f)]
+    return [f for f in frames if not exists(f)]
 
 
 Rendered = Iterator[tuple[int, Result, float | None]]
@@ -94,62 +48,85 @@ def render_frames(
     scene: _core.Scene,
     integrator_of: IntegratorOf,
     timing: Timing,
-    frames: list[int],
+    kept: ShotCheckpoint,
     options: RenderOptions,
     wait: Wait,
     together: int | None,
 ) -> Rendered:
-    """Each frame's number, the result of its render, and its flicker. None after a render that was
-    cancelled, whose frames are not among them. `wait` waits for a render of so many frames."""
-    if not frames:
+    """The number, the result and the flicker of each frame to come that `kept` has not done. None
+    after a render that was cancelled, whose frames are not among them. `wait` waits for a render of
+    so many frames. What asks for the next frame has written the one before."""
+    if kept.complete or not kept.to_come:
         return
     most = frames_together(scene, integrator_of(scene), options, together)
-    for run in runs(scene, timing, frames):
-        shown = [run[0][-1], *(moment[0] for moment in run[1:])]
+    for run in runs(scene, timing, kept.to_come):
+        shown = {run[0][-1]: run[0], **{moment[0]: moment for moment in run[1:]}}
 
         def start(window: Window) -> WindowRender:
             render = WindowRender(scene, integrator_of, timing, window)
             frames = sum(window.weights)
-            finish(render.start(options), lambda job: wait(job, frames))
+            job = render.start(kept.options_of(window, options), goes_on=kept.has_render(window))
+            finish(job, lambda job: wait(job, frames))
+            kept.interrupted = job.cancelled
             return render
 
-        rendered = alone(start, shown) if most == 1 else together_in(start, windows(shown, most))
-        for moment, (_, result, flicker) in zip(run, rendered, strict=False):
-            yield moment[0], result, flicker
-            yield from ((frame, result, 0.0) for frame in moment[1:])
+        numbers = list(shown)
+        if most == 1:
+            rendered = alone(start, numbers, kept)
+        else:
+            rendered = together_in(start, windows(numbers, most), kept)
+        for frame, result, flicker in rendered:
+            for number in shown[frame]:
+                metadata = result.metadata | {"frame": f"{number}"}
+                changed = flicker if number == shown[frame][0] else 0.0
+                yield number, replace(result, metadata=metadata), changed
+        if kept.interrupted:
+            return
+    kept.end()
 
 
-def alone(start: Callable[[Window], WindowRender], frames: list[int]) -> Rendered:
+def alone(
+    start: Callable[[Window], WindowRender], frames: list[int], kept: ShotCheckpoint
+) -> Rendered:
     before: WindowRender | None = None
-    for frame in frames:
-        render = start(whole([frame]))
-        if render.job.cancelled:
+    for last, frame in pairwise((None, *frames)):
+        window = whole([frame])
+        if kept.has_done(window):
+            continue
+        if before is None and last is not None:  # the shot goes on with this frame
+            before = start(whole([last]))
+        kept.begin(window, last)
+        render = start(window)
+        if kept.interrupted:
             return
         yield frame, render.result(0), None if before is None else render.job.flicker(before.job)
         before = render
 
 
-def together_in(start: Callable[[Window], WindowRender], shared: list[Window]) -> Rendered:
+def together_in(
+    start: Callable[[Window], WindowRender], shared: list[Window], kept: ShotCheckpoint
+) -> Rendered:
     """The frames of windows that follow each other, each when all of its renders have ended."""
     first, last = shared[0].frames[0], shared[-1].frames[-1]
-    fading: dict[int, Result] = {}
-    changes: defaultdict[int, list[float | None]] = defaultdict(list)
     for window in shared:
+        if kept.has_done(window):
+            continue
+        kept.begin(window)
         render = start(window)
-        if render.job.cancelled:
+        if kept.interrupted:
             return
         for place in range(len(window.frames) + 1):
             frame = window.frames[0] + place
             if first < frame <= last:
-                changes[frame].append(render.change(place))
+                kept.changes.setdefault(frame, []).append(render.change(place))
         for place, frame in enumerate(window.frames):
             result, weight = render.result(place), window.weights[place]
-            if frame in fading:
-                result = faded(fading.pop(frame), result, weight)
+            if frame in kept.fading:
+                result = faded(kept.fading.pop(frame), result, weight)
             elif weight < 1:
-                fading[frame] = result
+                kept.fading[frame] = result
                 continue
-            yield frame, result, root_of_squares(changes[frame])
+            yield frame, result, root_of_squares(kept.changes.pop(frame, []))
 
 
 def render_shot(
@@ -162,6 +139,7 @@ def render_shot(
     shutter: float = 0.5,
     skip_existing: bool = False,
     together: int | None = None,
+    resume: str | os.PathLike[str] | None = None,
     sensor: SensorLike | None = None,
     spectral: bool = False,
     progress: bool | Callable[[float], object] | None = None,
@@ -182,35 +160,38 @@ def render_shot(
         how many frames that follow each other one render has. None: for `mlt`, whose noise then
         changes as slowly as the picture, 16 or as many as 4 GB hold, else 1.
 
+    resume
+        the checkpoint of this shot, given with the same arguments again: frames that are done are
+        not rendered again, and the others end with the same pixels as if nothing had happened.
+
     The other arguments are those of `start`, and hold for each frame: `spp` and `time` are those of
-    one; there is no `checkpoint`. `progress` is that of `render`. Warns of a shot in which nothing
-    moves. Raises UsageError for frames, files and times that make no sense, and what `render`
-    raises.
+    one. `checkpoint` tells which frames are done; the render in progress keeps its own beside it,
+    with the number of its first frame added to the name. `progress` is that of `render`. Warns of a
+    shot in which nothing moves. Raises UsageError for frames, files and times that make no sense
+    and for the checkpoint of another shot, and what `render` raises.
     """
     options = RenderOptions(**settings)
-    if options.checkpoint is not None:
-        raise _core.UsageError("a shot has no checkpoint; skip_existing=True goes on with one")
     numbers, pattern = parse_frames(frames), check_pattern(output)
     when = checked_timing(fps, shutter)
     scene = as_scene(scene, sensor, spectral)
+
+    def integrator_of(seen: _core.Scene) -> _core.Integrator:
+        return as_integrator(seen, integrator)
+
     if warning := stands_still(scene, when, numbers):
         warnings.warn(warning, stacklevel=2)
-    to_come, skipped = frames_to_render(numbers, [pattern], skip_existing)
-    shot = Shot(skipped=skipped)
+    record = shot_record(scene, integrator_of(scene), options, when, numbers, [pattern], together)
+    to_come = frames_to_render(numbers, [pattern], skip_existing)
+    kept = kept_shot(options, resume, record, to_come)
+    shot = kept.shot(numbers)
     with progress_bar(progress) as show:
 
         def wait(job: Job, frames: float) -> None:
-            ended = len(shot.frames)
-            job.wait(progress=lambda share: show((ended + frames * share) / len(to_come), {}))
+            ended, all_frames = len(shot.frames), len(kept.to_come)
+            job.wait(progress=lambda share: show((ended + frames * share) / all_frames, {}))
 
         for frame, result, flicker in render_frames(
-            scene,
-            lambda seen: as_integrator(seen, integrator),
-            when,
-            to_come,
-            options,
-            wait,
-            together,
+            scene, integrator_of, when, kept, options, wait, together
         ):
             result.write(file_of(pattern, frame))
             shot.frames.append(Frame(frame, [file_of(pattern, frame)], result.stats, flicker))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -102,7 +103,8 @@ class WindowRender:
         if self.count > 1:
             self.integrator = _core.with_light_layers(self.integrator, False, [], exposures=True)
 
-    def start(self, options: RenderOptions) -> Job:
+    def start(self, options: RenderOptions, *, goes_on: bool = False) -> Job:
+        """Begins, or goes on from its checkpoint."""
         if self.count > 1:
             spp, time = options.spp, options.time
             if spp is None and time is None:
@@ -110,8 +112,10 @@ class WindowRender:
             own = sum(self.window.weights)
             options = replace(options, spp=spp and spp * own, time=time and time * own)
             options = replace(options, seed=options.seed + self.window.frames[0])
-        self.job = Job(self.scene, self.integrator, options)._start()
-        return self.job
+        self.job = Job(self.scene, self.integrator, options)
+        if goes_on and options.checkpoint:
+            _core.Checkpoint(os.fspath(options.checkpoint)).resume(self.job._job)
+        return self.job._start()
 
     @cached_property
     def whole(self) -> Result:
@@ -128,13 +132,16 @@ class WindowRender:
             return self.whole
         name = f"exposure.{place + 1}"
         error = self.whole.layers.get("error." + name)
+        spp = self.whole.stats["spp_done"] / sum(self.window.weights)
         stats = {k: v for k, v in self.whole.stats.items() if k not in OF_WHOLE_IMAGES}
-        stats |= {"exposures": self.count, "error": self.error(place)}
+        stats |= {"exposures": self.count, "error": self.error(place), "spp_done": spp}
+        metadata = {k: v for k, v in self.whole.metadata.items() if k != "light_groups"}
         return replace(
             self.whole,
             image=self.whole.layers[name] * self.count,
             layers={} if error is None else {"error": error * self.count},
             stats=stats,
+            metadata=metadata | {"spp": f"{spp}"},
         )
 
     def change(self, place: int) -> float | None:
@@ -165,9 +172,12 @@ def faded(before: Result, after: Result, weight: float) -> Result:
 
     error = both(before.stats["error"], after.stats["error"])
     layer = both(before.layers.get("error"), after.layers.get("error"))
+    spp = (1 - weight) * before.stats["spp_done"] + weight * after.stats["spp_done"]
+    seeds = f"{before.metadata['seed']} {after.metadata['seed']}"
     return replace(
         after,
         image=(1 - weight) * before.image + weight * after.image,
         layers={} if layer is None else {"error": layer},
-        stats=after.stats | {"error": error},
+        stats=after.stats | {"error": error, "spp_done": spp},
+        metadata=after.metadata | {"seed": seeds, "spp": f"{spp}"},
     )
