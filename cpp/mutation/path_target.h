@@ -84,6 +84,10 @@ class PathTarget {
   double over_starts(const PathState& x) const {
     return x.known.over_starts.get([&] { return x.target / bidirectional_density(x); });
   }
+  /// The density of samples of path tracing, over |f(x)|.
+  double path_tracing_density(const PathState& x) const {
+    return mlt::path_tracing_density(ContributionMeasure{x.terms}, refracted_density(x));
+  }
   /// Computes the terms that depend on vertices first ... last and their neighbours, then f and L*,
   /// without visibility. target = 0 if the path has no light, misses the image or breaks the rules.
   void evaluate(int first, int last, PathState& x) const;
@@ -103,9 +107,8 @@ class PathTarget {
   void evaluate_target(PathState& x) const;
   // Over |f(x)|:
   double density(const PathState& x) const {
-    return techniques_ == SampleTechniques::all
-               ? bidirectional_density(x)
-               : path_tracing_density(ContributionMeasure{x.terms}, refracted_density(x));
+    return techniques_ == SampleTechniques::all ? bidirectional_density(x)
+                                                : path_tracing_density(x);
   }
   double bidirectional_density(const PathState& x) const {
     const ManifoldTechnique manifold =

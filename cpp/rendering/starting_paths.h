@@ -18,7 +18,7 @@ struct Start {
 
 class StartingPaths {
  public:
-  explicit StartingPaths(const PathTarget& target) : seeds_(target) {}
+  explicit StartingPaths(const PathTarget& target) : target_(&target), seeds_(target) {}
 
   /// Draws a sample, and returns its light. Of paths with a weight T / p below the mean of all up
   /// to now only some are kept as starts, which then count for others.
@@ -36,7 +36,7 @@ class StartingPaths {
       seeds_.assemble(c, x_);
       if (!(x_.target > 0)) return;
       const double energy = light.target_over_density,
-                   traced = x_.target / path_tracing_density(ContributionMeasure{x_.terms});
+                   traced = x_.target / target_->path_tracing_density(x_);
       starts_.push_back({energy, traced, std::max(weight, level) / energy});
     });
     return lights_;
@@ -45,6 +45,7 @@ class StartingPaths {
   const RayCounts& rays() const { return seeds_.rays(); }
 
  private:
+  const PathTarget* target_;
   PathSeeds seeds_;
   PathState x_;
   Rng choice_{0, Purpose::allocation, 0};

@@ -129,6 +129,21 @@ def test_the_furnace_has_the_radiance_of_the_series(integrator):
     assert (np.abs(runs.mean(axis=0) - expected) < 6 * error + 1e-6).all()
 
 
+@pytest.mark.parametrize("independent", ["path", "bdpt"])
+def test_chains_and_samples_share_the_light_of_a_sphere_that_shines_inwards(independent):
+    """1 + 1/2 + 1/4, where points lie on the light itself, on either side of it by rounding."""
+    sphere = {
+        "type": "sphere",
+        "flip_normals": True,
+        "bsdf": {"type": "diffuse", "reflectance": 0.5},
+        "light": {"type": "area", "radiance": 1.0},
+    }
+    film = {"type": "hdrfilm", "width": 16, "height": 16, "rfilter": {"type": "box"}}
+    scene = {"type": "scene", "sphere": sphere, "sensor": {"type": "perspective", "film": film}}
+    integrator = mlt.MLT(max_depth=3, independent=independent, independent_share=0.9)
+    assert mlt.render(scene, integrator, spp=256).mean() == pytest.approx(1.75, rel=0.004)
+
+
 def test_the_furnace_without_a_bound_is_one_half():
     scene = mlt.load_dict(mlt.scenes.furnace(), size=(16, 12))
     few = mlt.MLT(chains=16, luminance_samples=10_000)

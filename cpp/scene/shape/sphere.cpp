@@ -125,7 +125,10 @@ Vec2 Sphere::invert_position(const SurfacePoint& at) const {
 std::optional<Sphere::Cone> Sphere::cone(const Vec3& from) const {
   const Vec3 z = from - center_;
   const double distance = length(z);
-  if (!(distance > radius_ * (1 + 1e-9)) || !std::isfinite(distance)) return std::nullopt;
+  // Points inside see all of it, and only they see one that shines inwards: those on its surface,
+  // too, on whichever side rounding leaves them.
+  if (side_ < 0 || !(distance > radius_ * (1 + 1e-9)) || !std::isfinite(distance))
+    return std::nullopt;
   const double sin_max = radius_ / distance;
   const double cos_max = std::sqrt((distance - radius_) * (distance + radius_)) / distance;
   return Cone{Frame::around(z / distance), distance, cos_max, sqr(sin_max) / (1 + cos_max)};

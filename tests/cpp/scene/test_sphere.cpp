@@ -132,6 +132,17 @@ TEST(Sphere, AreaSamplingIsATriple) {
   for (int k = 0; k < 3; ++k) EXPECT_LT(std::abs(sum[k]), 4.4 * std::sqrt(samples / 3.0));
 }
 
+TEST(Sphere, ThatShinesInwardsIsSampledAsAWholeFromItsSurface) {
+  const Sphere sphere{{1, 2, 3}, 0.5, Mat4(1), true, here};
+  const Vec3 outward = normalize(Vec3(0.3, -0.5, 0.8));
+  for (const double distance : {0.5 * (1 - 1e-7), 0.5, 0.5 * (1 + 1e-7)}) {
+    const Vec3 from = sphere.center() + distance * outward;
+    const PositionSample sample = sphere.sample_direct(from, {0.3, 0.6});
+    EXPECT_EQ(sample.pdf * sphere.area(), 1);
+    EXPECT_EQ(sphere.pdf_direct(from, sample.at), sample.pdf);
+  }
+}
+
 class SphereSeenFrom : public testing::TestWithParam<double> {
  protected:
   const Sphere sphere{{1, 2, 3}, 0.5, Mat4(1), false, here};
