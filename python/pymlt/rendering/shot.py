@@ -6,7 +6,7 @@ import math
 import os
 import warnings
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -21,6 +21,7 @@ from .options import RenderOptions
 from .progress import progress_bar
 from .result import Result
 from .stats import Stats
+from .temporal import Rendered, denoised, guides_of_frames, still
 from .windows import IntegratorOf, Window, WindowRender, faded, frames_together, whole, windows
 
 
@@ -54,6 +55,11 @@ class Shot:
         return _root_mean_square(frame.flicker for frame in self.frames)
 
     @property
+    def denoised_flicker(self) -> float | None:
+        """The root of the mean square of `stats["denoised_flicker"]`; None if none is known."""
+        return _root_mean_square(frame.stats.get("denoised_flicker") for frame in self.frames)
+
+    @property
     def stats(self) -> dict[str, Any]:
         """What `--stats` writes of a shot."""
         frames = [
@@ -61,6 +67,8 @@ class Shot:
             for f in self.frames
         ]
         whole = {"error": self.error, "flicker": self.flicker, "skipped": self.skipped}
+        if self.denoised_flicker is not None:
+            whole["denoised_flicker"] = self.denoised_flicker
         return {**whole, "frames": frames}
 
 
@@ -86,7 +94,6 @@ def frames_to_render(
     return [f for f in frames if not exists(f)], [f for f in frames if exists(f)]
 
 
-Rendered = Iterator[tuple[int, Result, float | None]]
 Wait = Callable[[Job, float], object]
 
 
@@ -114,9 +121,11 @@ def render_frames(
             return render
 
         rendered = alone(start, shown) if most == 1 else together_in(start, windows(shown, most))
+        if options.denoise:
+            rendered = denoised(rendered, guides_of_frames(scene, timing, options))
         for moment, (_, result, flicker) in zip(run, rendered, strict=False):
             yield moment[0], result, flicker
-            yield from ((frame, result, 0.0) for frame in moment[1:])
+            yield from ((frame, still(result), 0.0) for frame in moment[1:])
 
 
 def alone(start: Callable[[Window], WindowRender], frames: list[int]) -> Rendered:
@@ -183,7 +192,8 @@ def render_shot(
         changes as slowly as the picture, 16 or as many as 4 GB hold, else 1.
 
     The other arguments are those of `start`, and hold for each frame: `spp` and `time` are those of
-    one; there is no `checkpoint`. `progress` is that of `render`. Warns of a shot in which nothing
+    one; there is no `checkpoint`. With `denoise`, frames are mixed with their neighbours, too,
+    where that lowers their error. `progress` is that of `render`. Warns of a shot in which nothing
     moves. Raises UsageError for frames, files and times that make no sense, and what `render`
     raises.
     """

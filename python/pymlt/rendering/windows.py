@@ -10,10 +10,13 @@ from functools import cached_property
 from itertools import pairwise
 
 from .. import _core
+from ..pictures.halves import Pair
+from .denoised import pairs
 from .frames import Timing, scene_at
 from .job import Job
 from .options import RenderOptions, integer
 from .result import Result
+from .temporal import Halved, faded_halves, filtered_alone
 
 IntegratorOf = Callable[[_core.Scene], _core.Integrator]
 
@@ -30,7 +33,6 @@ ALONE = {
     "light_layers": None,
     "alpha": False,
     "fireflies": "keep",
-    "denoise": False,
 }
 
 
@@ -103,20 +105,21 @@ class WindowRender:
             self.integrator = _core.with_light_layers(self.integrator, False, [], exposures=True)
 
     def start(self, options: RenderOptions) -> Job:
+        self.denoise = options.denoise
         if self.count > 1:
             spp, time = options.spp, options.time
             if spp is None and time is None:
                 spp = self.scene.info()["sample_count"]
             own = sum(self.window.weights)
             options = replace(options, spp=spp and spp * own, time=time and time * own)
-            options = replace(options, seed=options.seed + self.window.frames[0])
+            options = replace(options, seed=options.seed + self.window.frames[0], denoise=False)
         self.job = Job(self.scene, self.integrator, options)._start()
         return self.job
 
     @cached_property
     def whole(self) -> Result:
         """The result of the render, which has all its layers."""
-        return self.job.result()
+        return filtered_alone(self.job) if self.count == 1 else self.job.result()
 
     def error(self, place: int) -> float | None:
         """The relative error of a frame."""
@@ -130,12 +133,21 @@ class WindowRender:
         error = self.whole.layers.get("error." + name)
         stats = {k: v for k, v in self.whole.stats.items() if k not in OF_WHOLE_IMAGES}
         stats |= {"exposures": self.count, "error": self.error(place)}
-        return replace(
+        found = replace(
             self.whole,
             image=self.whole.layers[name] * self.count,
             layers={} if error is None else {"error": error * self.count},
             stats=stats,
         )
+        return Halved(**vars(found), halves=self.halves(place)) if self.denoise else found
+
+    def halves(self, place: int) -> tuple[Pair, Pair] | None:
+        """Those of the frame at this place, as they are and without fireflies."""
+        halves = self.job._job.halves(place)
+        if halves is None:
+            return None
+        raw, robust = pairs(halves)
+        return raw.times(self.count), robust.times(self.count)
 
     def change(self, place: int) -> float | None:
         """The error of what the render contributes to the change from the frame before a place to
@@ -170,4 +182,5 @@ def faded(before: Result, after: Result, weight: float) -> Result:
         image=(1 - weight) * before.image + weight * after.image,
         layers={} if layer is None else {"error": layer},
         stats=after.stats | {"error": error},
+        **faded_halves(before, after, weight),
     )
