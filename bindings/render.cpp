@@ -73,8 +73,8 @@ py::tuple groups(PyJob& job) {
                         py::array_t<double>(count, b.data()));
 }
 
-py::object halves(PyJob& job) {
-  std::optional<Halves> halves = without_gil([&] { return job.halves(); });
+py::object halves(PyJob& job, int layer) {
+  std::optional<Halves> halves = without_gil([&] { return job.halves(layer); });
   if (!halves) return py::none();
   const auto pair = [](Half& half) {
     return py::make_tuple(to_array(std::move(half.image)), to_array(std::move(half.robust)));
@@ -187,9 +187,9 @@ void bind_render(py::module_& m) {
            [](PyJob& job) {
              return to_array(without_gil([&] { return job.image_without_fireflies(); }));
            })
-      .def("halves", &halves,
-           "Two halves of the image so far that share no group, each as (image, image without "
-           "fireflies); None while there are fewer than four groups.")
+      .def("halves", &halves, py::arg("layer") = Rendering::all_light,
+           "Two halves of the image so far, or of a layer of light, that share no group, each as "
+           "(image, image without fireflies); None while there are fewer than four groups.")
       .def("relative_error", &relative_error, py::arg("layer") = Rendering::all_light,
            "The relative error so far, of a layer of light if asked, or None if nothing is known.")
       .def("flicker", &flicker, py::arg("before"), py::arg("layer") = Rendering::all_light,

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pymlt as mlt
 from pymlt.algorithms.integrator import as_integrator
+from pymlt.rendering.first_seen import first_seen
 from pymlt.rendering.frames import Timing, scene_at
 from pymlt.rendering.options import RenderOptions
 from pymlt.rendering.windows import WindowRender, frames_together, whole
@@ -74,10 +75,9 @@ class Together:
 
     def _first_seen(self, place: int) -> dict:
         """The layers of what the camera sees first."""
-        world = moment(self._world, place)
-        seen = mlt.Path(max_depth=1, hide_emitters=self._transparent)
-        options = {"spp": 1, "aovs": passes.AOVS, "alpha": self._transparent}
-        layers = mlt.start(world, seen, **options, **self._how).result().layers
+        hidden = self._transparent
+        options = {"aovs": passes.AOVS, "alpha": hidden, "hide_emitters": hidden}
+        layers = first_seen(moment(self._world, place), **options, **self._how)
         return {name: layers[name] for name in passes.SEEN_FIRST if name in layers}
 
 

@@ -22,10 +22,10 @@ Image weighted_mean(const GroupImages& groups) {
 }
 
 /// The groups first ... last - 1 of those that have samples.
-GroupImages images_of(const Rendering& rendering, const std::vector<int>& live, size_t first,
-                      size_t last) {
+GroupImages images_of(const Rendering& rendering, int layer, const std::vector<int>& live,
+                      size_t first, size_t last) {
   GroupImages groups;
-  for (size_t i = first; i < last; ++i) groups.push_back(rendering.group(live[i]));
+  for (size_t i = first; i < last; ++i) groups.push_back(rendering.group(live[i], layer));
   return groups;
 }
 
@@ -45,16 +45,16 @@ void add(Half& sum, const Half& part) {
 
 }  // namespace
 
-std::optional<Halves> halves(const Rendering& rendering) {
+std::optional<Halves> halves(const Rendering& rendering, int layer) {
   std::vector<int> live;
   for (int g = 0; g < Rendering::group_count; ++g)
-    if (rendering.group(g).weight > 0) live.push_back(g);
+    if (rendering.group(g, layer).weight > 0) live.push_back(g);
   if (live.size() < fewest_to_halve) return std::nullopt;
   const size_t middle = live.size() / 2;
-  Halves sum{half_of(images_of(rendering, live, 0, middle)),
-             half_of(images_of(rendering, live, middle, live.size()))};
+  Halves sum{half_of(images_of(rendering, layer, live, 0, middle)),
+             half_of(images_of(rendering, layer, live, middle, live.size()))};
   for (const Rendering* part : rendering.parts()) {
-    const std::optional<Halves> more = halves(*part);
+    const std::optional<Halves> more = halves(*part, layer);
     if (!more) return std::nullopt;
     add(sum.first, more->first);
     add(sum.second, more->second);

@@ -17,8 +17,8 @@ struct Halves {
   Half first, second;
 };
 
-/// Nothing while the rendering or one of its parts has fewer than four groups. Needs as much memory
-/// as one image for each group of a half.
-std::optional<Halves> halves(const Rendering& rendering);
+/// Halves of the image, or of one of its layers of light. Nothing while the rendering or one of its
+/// parts has fewer than four groups. Needs as much memory as one image for each group of a half.
+std::optional<Halves> halves(const Rendering& rendering, int layer = Rendering::all_light);
 
 }  // namespace mlt

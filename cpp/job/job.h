@@ -78,8 +78,8 @@ class Job {
   Image image() const;      ///< The image so far: linear RGB, row 0 on top.
   /// The image so far, without fireflies (see without_fireflies).
   Image image_without_fireflies() const;
-  /// Two halves of the image so far (see halves.h), or nothing.
-  std::optional<Halves> halves() const;
+  /// Two halves of the image so far, or of one of its layers of light (see halves.h), or nothing.
+  std::optional<Halves> halves(int layer = Rendering::all_light) const;
   /// Further images that the render was asked to keep, layers of light with the errors of those of
   /// lamps, layers of the first surface (see aov.h), alpha, and the error of the image, so far.
   std::vector<NamedImage> layers() const;

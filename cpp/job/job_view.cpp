@@ -51,10 +51,10 @@ Image Job::image_without_fireflies() const {
   return without_fireflies(*rendering_);
 }
 
-std::optional<Halves> Job::halves() const {
+std::optional<Halves> Job::halves(int layer) const {
   check_here();
   const std::lock_guard lock(merging_);
-  return mlt::halves(*rendering_);
+  return mlt::halves(*rendering_, layer);
 }
 
 std::shared_ptr<const ErrorEstimate> Job::error() const {

@@ -61,7 +61,9 @@ def shot(name: str, folder: Path, together: int) -> list[Path]:
         skip_existing=True,
     )
     seconds = process_time() - begin
-    print(f"{name}, {together} together: error {made.error}, flicker {made.flicker}, {seconds:.0f} s")
+    print(
+        f"{name}, {together} together: error {made.error}, flicker {made.flicker}, {seconds:.0f} s"
+    )
     return [folder / f"{name}.{together}.{frame:04}.exr" for frame in range(FRAMES)]
 
 

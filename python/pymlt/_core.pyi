@@ -490,7 +490,7 @@ class Job:
         sample: int,
     ) -> tuple[tuple[float, float], np.ndarray, list[LightPath]]: ...
     def halves(
-        self,
+        self, layer: int = -1
     ) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]] | None: ...
     def flicker(
         self,

@@ -62,7 +62,8 @@ def test_completion_knows_what_is_imported_later():
 
 def test_the_type_of_stats_has_every_key():
     filtered = mlt.start(tiny.scene(), "mlt", seed=1, spp=16, fireflies="groups").result()
-    rest = {"renders", "denoised_error"}  # of `merge`, and of test_denoise.py
+    # of `merge`, of test_denoise.py, and of test_shot_denoised.py
+    rest = {"renders", "denoised_error", "denoised_flicker"}
     assert filtered.stats.keys() == get_type_hints(Stats).keys() - rest
     assert filtered.stats["mutations"]
     assert filtered.stats["mutations"][0].keys() == get_type_hints(MutationStats).keys()

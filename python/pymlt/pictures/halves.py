@@ -61,6 +61,9 @@ class Pair(NamedTuple):
         """What Metropolis samples, as one channel."""
         return Pair(*(target_luminance(half)[..., None] for half in self))
 
+    def times(self, factor: float) -> Pair:
+        return Pair(self.first * factor, self.second * factor)
+
     def mixed(self, other: Pair, weight: np.ndarray) -> Pair:
         """This one and another, with the weight of the other in each pixel."""
         w = weight[..., None]
@@ -75,6 +78,9 @@ class Mixture(NamedTuple):
     error: np.ndarray  #: its standard error around each pixel, float32, (height, width, 3)
     relative: float  #: its relative error, as `stats["error"]` is that of the image itself
     bound: float  #: the same with two standard errors of its square
+    pair: Pair  #: what it makes of each half
+    kept: np.ndarray  #: the share k of a pixel's own noise, (height, width)
+    advice: Advice  #: of the halves
 
 
 def covariance(f: Pair, g: Pair, raw: Pair) -> np.ndarray:
@@ -103,34 +109,34 @@ def best_mixture(
     import numpy as np
 
     with_sparks, without_sparks = filtered
-    advice = _Advice(raw, error, (with_sparks.mean + without_sparks.mean) / 2)
+    advice = Advice(raw, error, (with_sparks.mean + without_sparks.mean) / 2)
     of, around = advice.covariance, advice.around
 
     gain = around(of(without_sparks, without_sparks) - of(without_sparks, with_sparks))
-    difference = around(_grey((with_sparks.mean - without_sparks.mean) ** 2))
-    clean = without_sparks.mixed(with_sparks, _share(gain, difference))
+    difference = around(grey((with_sparks.mean - without_sparks.mean) ** 2))
+    clean = without_sparks.mixed(with_sparks, share(gain, difference))
 
     shared = of(clean, raw)
-    own = _share(around(shared), around(advice.apart))
+    own = advice.kept(clean)
     unlike = advice.unlike * advice.apart
     gain = np.maximum(around(of(clean, clean) - shared + (1 - own) * unlike), 0)
     noise = np.maximum(around(advice.variance - shared + own * unlike), 0)
-    spark = _grey(abs(raw.mean - robust.mean)) > 1e-6 * advice.expected.mean()
+    spark = grey(abs(raw.mean - robust.mean)) > 1e-6 * advice.expected.mean()
     noise = np.where(spark, np.maximum(noise, advice.variance / advice.scale), noise)
-    weight = np.where(advice.glint, 1, _share(gain, gain + noise)).astype(np.float32)
+    weight = np.where(advice.glint, 1, share(gain, gain + noise)).astype(np.float32)
 
     found = clean.mean + weight[..., None] * (image - clean.mean)
     return advice.mixture(found, clean.mixed(raw, weight), own + weight * (1 - own))
 
 
-class _Advice:
+class Advice:
     """What the halves tell about filters. Arrays have the shape (height, width)."""
 
     def __init__(self, raw: Pair, error: np.ndarray, expected: np.ndarray):
         self.raw = raw
-        self.expected = _grey(expected)
-        self.variance = _grey(error**2)
-        self.apart = self._bounded(_grey(raw.apart))
+        self.expected = grey(expected)
+        self.variance = grey(error**2)
+        self.apart = self._bounded(grey(raw.apart))
 
     @cached_property
     def scale(self) -> np.ndarray:
@@ -138,10 +144,10 @@ class _Advice:
         has lost is the product of what the halves have seen."""
         import numpy as np
 
-        first, second = (_grey(half) for half in self.raw)
+        first, second = (grey(half) for half in self.raw)
         is_lost = np.minimum(first, second) > FAR * self.expected
         square = np.where(is_lost, first * second, self.expected**2)
-        dark = max(DARK * float(_grey(self.raw.mean).mean()), 1e-12)  # also of a black image
+        dark = max(DARK * float(grey(self.raw.mean).mean()), 1e-12)  # also of a black image
         return square + dark**2
 
     @cached_property
@@ -149,7 +155,7 @@ class _Advice:
         """Where both halves are brighter than the filter expects, and alike."""
         import numpy as np
 
-        first, second = (_grey(half) - self.expected for half in self.raw)
+        first, second = (grey(half) - self.expected for half in self.raw)
         less, more = np.minimum(first, second), np.maximum(first, second)
         return (less > SURE * np.sqrt(self.variance)) & (less > ALIKE * more)
 
@@ -165,13 +171,17 @@ class _Advice:
         return means / np.maximum(neighbours(kept, sigma), 1e-3)
 
     def covariance(self, f: Pair, g: Pair) -> np.ndarray:
-        return _grey(covariance(f, g, self.raw))
+        return grey(covariance(f, g, self.raw))
+
+    def kept(self, f: Pair) -> np.ndarray:
+        """The share of a pixel's own noise that a filter keeps."""
+        return share(self.around(self.covariance(f, self.raw)), self.around(self.apart))
 
     @cached_property
     def unlike(self) -> np.ndarray:
         """u as a share of (A - B)^2 / 4."""
         variance, apart = (self.around(x, 4 * SIGMA) for x in (self.variance, self.apart))
-        return 1 - _share(variance, apart)
+        return 1 - share(variance, apart)
 
     def mixture(self, image: np.ndarray, pair: Pair, kept: np.ndarray) -> Mixture:
         """An image, with its error by the mixture of its halves, and the share k."""
@@ -179,16 +189,24 @@ class _Advice:
 
         biases = self._smoothed(self._biases(pair, self.raw, kept))
         squares = np.maximum(biases, 0) + self._smoothed(pair.apart)
-        grey, raw = pair.luminance, self.raw.luminance
-        terms = [self._biases(grey, raw, kept), grey.apart]
-        bias, spread = (term[..., 0] / self.scale for term in terms)
-        square = max(0.0, float(bias.mean(dtype=float))) + float(spread.mean(dtype=float))
         return Mixture(
             image.astype(np.float32),
             np.sqrt(squares).astype(np.float32),
-            square**0.5,
-            (square + 2 * _standard_error(bias + spread)) ** 0.5,
+            *self.relative(pair.luminance, self.raw.luminance, kept),
+            pair,
+            kept,
+            self,
         )
+
+    def relative(self, found: Pair, raw: Pair, kept: np.ndarray) -> tuple[float, float]:
+        """The error of what a filter that keeps the share k makes of `raw`, and its bound.
+
+        Both pairs are of one channel.
+        """
+        terms = [self._biases(found, raw, kept), found.apart]
+        bias, spread = (term[..., 0] / self.scale for term in terms)
+        square = max(0.0, float(bias.mean(dtype=float))) + float(spread.mean(dtype=float))
+        return square**0.5, (square + 2 * _standard_error(bias + spread)) ** 0.5
 
     def _biases(self, f: Pair, raw: Pair, kept: np.ndarray) -> np.ndarray:
         """The squared bias of each channel, with what e(f, f) lacks."""
@@ -240,11 +258,11 @@ def _gaussian(sigma: float) -> np.ndarray:
     return (weights / weights.sum()).astype(np.float32)
 
 
-def _grey(values: np.ndarray) -> np.ndarray:
+def grey(values: np.ndarray) -> np.ndarray:
     return values.mean(axis=2)
 
 
-def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+def share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
     import numpy as np
 
     return np.clip(part / np.maximum(whole, 1e-12), 0, 1).astype(np.float32)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from .._extras import import_extra
 from ..pictures.denoising import denoise_halves, denoise_with_layers, guides_of, how
-from ..pictures.halves import Pair
+from ..pictures.halves import Mixture, Pair
 from .result import Result
 
 if TYPE_CHECKING:
@@ -29,9 +29,13 @@ class Denoising:
         import_extra("pyoidn", "denoise", "denoising")
         self._job = job
         self.goal = 0.0  #: the error that ends the render, if any does
-        self.error: float | None = None  #: of the denoised image, when it was last made
-        self._bound = math.nan
+        self.found: Mixture | None = None  #: when it was last made
         self._samples = 0.0
+
+    @property
+    def error(self) -> float | None:
+        """That of the denoised image, when it was last made."""
+        return None if self.found is None else self.found.relative
 
     def image(self, noisy: np.ndarray, layers: dict[str, np.ndarray]) -> tuple[np.ndarray, dict]:
         """The image without most of its noise, and its error as layers.
@@ -43,10 +47,8 @@ class Denoising:
         if halves is None or "error" not in layers:
             noisy = self._job.image_without_fireflies()
             return denoise_with_layers(noisy, layers, {}).image, {}
-        raw, robust = (Pair(*images) for images in zip(*halves, strict=True))
-        found = denoise_halves(noisy, raw, robust, layers)
-        self.error, self._bound, self._samples = found.relative, found.bound, samples
-        return found.image, {"denoised_error": found.error}
+        self.found, self._samples = denoise_halves(noisy, *pairs(halves), layers), samples
+        return self.found.image, {"denoised_error": self.found.error}
 
     def judge(self) -> None:
         """Before the job starts: its budget bounds the error of the denoised image."""
@@ -55,27 +57,42 @@ class Denoising:
 
     def _upper_bound(self) -> float:
         """That of the error, or nan; where the goal is far off, a guess."""
-        if self._samples > 0:
-            guess = self._bound * math.sqrt(self._samples / self._job.spp_done)
+        if self.found is not None:
+            guess = self.found.bound * math.sqrt(self._samples / self._job.spp_done)
             if guess > SOONER * self.goal:
                 return guess
         self.image(self._job.image(), self._job.layers())
-        return self._bound
+        return math.nan if self.found is None else self.found.bound
 
     def denoised(self, result: Result) -> Result:
         """A snapshot of the job, denoised; one that cannot be says so in its warnings."""
-        layers, stats = result.layers, dict(result.stats)
         try:
-            image, error = self.image(layers.get("unfiltered", result.image), layers)
+            image, error = self.image(result.layers.get("unfiltered", result.image), result.layers)
         except _core.RenderError as failure:
-            stats["warnings"] = [*stats["warnings"], f"{failure}; the image is not denoised"]
-            return replace(result, stats=stats)
-        if error:
-            stats["denoised_error"] = self.error
-        return replace(
-            result,
-            image=image,
-            stats=stats,
-            layers=layers | {"noisy": result.image} | error,
-            metadata=result.metadata | {"denoised": how(guides_of(layers))},
-        )
+            return undenoised(result, failure)
+        return with_denoised(result, image, error, self.error if error else None)
+
+
+def pairs(halves: tuple) -> tuple[Pair, Pair]:
+    """The two of a render, as they are and without fireflies."""
+    raw, robust = (Pair(*images) for images in zip(*halves, strict=True))
+    return raw, robust
+
+
+def with_denoised(
+    result: Result, image: np.ndarray, error: dict[str, np.ndarray], relative: float | None
+) -> Result:
+    """A result with its denoised image, and the error of that if it is known."""
+    return replace(
+        result,
+        image=image,
+        stats=result.stats | ({} if relative is None else {"denoised_error": relative}),
+        layers=result.layers | {"noisy": result.image} | error,
+        metadata=result.metadata | {"denoised": how(guides_of(result.layers))},
+    )
+
+
+def undenoised(result: Result, failure: _core.RenderError) -> Result:
+    """A result that the filter has failed on, which says so in its warnings."""
+    warning = f"{failure}; the image is not denoised"
+    return replace(result, stats=result.stats | {"warnings": [*result.stats["warnings"], warning]})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -19,9 +19,9 @@ from .frames import timing as checked_timing
 from .job import Job
 from .options import RenderOptions
 from .progress import progress_bar
-from .result import Result
 from .shot_checkpoint import ShotCheckpoint, kept_shot, shot_record
 from .shot_result import Frame, Shot
+from .temporal import Rendered, denoised, guides_of_frames, still
 from .windows import IntegratorOf, Window, WindowRender, faded, frames_together, whole, windows
 
 
@@ -40,7 +40,6 @@ def frames_to_render(frames: list[int], patterns: list[str], skip_existing: bool
     return [f for f in frames if not exists(f)]
 
 
-Rendered = Iterator[tuple[int, Result, float | None]]
 Wait = Callable[[Job, float], object]
 
 
@@ -75,11 +74,14 @@ def render_frames(
             rendered = alone(start, numbers, kept)
         else:
             rendered = together_in(start, windows(numbers, most), kept)
+        if options.denoise:
+            rendered = denoised(rendered, guides_of_frames(scene, timing, options))
         for frame, result, flicker in rendered:
             for number in shown[frame]:
-                metadata = result.metadata | {"frame": f"{number}"}
-                changed = flicker if number == shown[frame][0] else 0.0
-                yield number, replace(result, metadata=metadata), changed
+                moves = number == shown[frame][0]
+                own = result if moves else still(result)
+                metadata = own.metadata | {"frame": f"{number}"}
+                yield number, replace(own, metadata=metadata), flicker if moves else 0.0
         if kept.interrupted:
             return
     kept.end()
@@ -166,9 +168,10 @@ def render_shot(
 
     The other arguments are those of `start`, and hold for each frame: `spp` and `time` are those of
     one. `checkpoint` tells which frames are done; the render in progress keeps its own beside it,
-    with the number of its first frame added to the name. `progress` is that of `render`. Warns of a
-    shot in which nothing moves. Raises UsageError for frames, files and times that make no sense
-    and for the checkpoint of another shot, and what `render` raises.
+    with the number of its first frame added to the name. With `denoise`, frames are mixed with
+    their neighbours, too, where that lowers their error, and there is no checkpoint. `progress` is
+    that of `render`. Warns of a shot in which nothing moves. Raises UsageError for frames, files
+    and times that make no sense and for the checkpoint of another shot, and what `render` raises.
     """
     options = RenderOptions(**settings)
     numbers, pattern = parse_frames(frames), check_pattern(output)

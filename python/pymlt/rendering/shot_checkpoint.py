@@ -136,6 +136,11 @@ def kept_shot(
     begins, unless they may be overwritten; UsageError for the checkpoint of another shot.
     """
     path = options.checkpoint
+    if options.denoise and (path or resume):
+        raise _core.UsageError(
+            "a shot with denoise has no checkpoint, since its frames wait for those after them; "
+            "leave one of both out"
+        )
     if resume is None:
         if path:
             _core.check_file_writable(path)

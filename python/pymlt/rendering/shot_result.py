@@ -39,6 +39,11 @@ class Shot:
         return _root_mean_square(frame.flicker for frame in self.frames)
 
     @property
+    def denoised_flicker(self) -> float | None:
+        """The root of the mean square of `stats["denoised_flicker"]`; None if none is known."""
+        return _root_mean_square(frame.stats.get("denoised_flicker") for frame in self.frames)
+
+    @property
     def stats(self) -> dict[str, Any]:
         """What `--stats` writes of a shot."""
         frames = [
@@ -46,6 +51,8 @@ class Shot:
             for f in self.frames
         ]
         whole = {"error": self.error, "flicker": self.flicker, "skipped": self.skipped}
+        if self.denoised_flicker is not None:
+            whole["denoised_flicker"] = self.denoised_flicker
         return {**whole, "frames": frames}
 
 

@@ -70,6 +70,7 @@ class Stats(TypedDict):
     groups: NotRequired[int]
     error: NotRequired[float | None]
     denoised_error: NotRequired[float]  #: of the denoised image, with `denoise=True`
+    denoised_flicker: NotRequired[float]  #: of its change from the frame before, in a shot
     block_error: NotRequired[float | None]
     pixels_carrying_error: NotRequired[float | None]
     disagreements: NotRequired[list[Disagreement]]

@@ -11,10 +11,13 @@ from functools import cached_property
 from itertools import pairwise
 
 from .. import _core
+from ..pictures.halves import Pair
+from .denoised import pairs
 from .frames import Timing, scene_at
 from .job import Job
 from .options import RenderOptions, integer
 from .result import Result
+from .temporal import Halved, faded_halves, filtered_alone
 
 IntegratorOf = Callable[[_core.Scene], _core.Integrator]
 
@@ -31,7 +34,6 @@ ALONE = {
     "light_layers": None,
     "alpha": False,
     "fireflies": "keep",
-    "denoise": False,
 }
 
 
@@ -105,13 +107,14 @@ class WindowRender:
 
     def start(self, options: RenderOptions, *, goes_on: bool = False) -> Job:
         """Begins, or goes on from its checkpoint."""
+        self.denoise = options.denoise
         if self.count > 1:
             spp, time = options.spp, options.time
             if spp is None and time is None:
                 spp = self.scene.info()["sample_count"]
             own = sum(self.window.weights)
             options = replace(options, spp=spp and spp * own, time=time and time * own)
-            options = replace(options, seed=options.seed + self.window.frames[0])
+            options = replace(options, seed=options.seed + self.window.frames[0], denoise=False)
         self.job = Job(self.scene, self.integrator, options)
         if goes_on and options.checkpoint:
             _core.Checkpoint(os.fspath(options.checkpoint)).resume(self.job._job)
@@ -120,7 +123,7 @@ class WindowRender:
     @cached_property
     def whole(self) -> Result:
         """The result of the render, which has all its layers."""
-        return self.job.result()
+        return filtered_alone(self.job) if self.count == 1 else self.job.result()
 
     def error(self, place: int) -> float | None:
         """The relative error of a frame."""
@@ -136,13 +139,22 @@ class WindowRender:
         stats = {k: v for k, v in self.whole.stats.items() if k not in OF_WHOLE_IMAGES}
         stats |= {"exposures": self.count, "error": self.error(place), "spp_done": spp}
         metadata = {k: v for k, v in self.whole.metadata.items() if k != "light_groups"}
-        return replace(
+        found = replace(
             self.whole,
             image=self.whole.layers[name] * self.count,
             layers={} if error is None else {"error": error * self.count},
             stats=stats,
             metadata=metadata | {"spp": f"{spp}"},
         )
+        return Halved(**vars(found), halves=self.halves(place)) if self.denoise else found
+
+    def halves(self, place: int) -> tuple[Pair, Pair] | None:
+        """Those of the frame at this place, as they are and without fireflies."""
+        halves = self.job._job.halves(place)
+        if halves is None:
+            return None
+        raw, robust = pairs(halves)
+        return raw.times(self.count), robust.times(self.count)
 
     def change(self, place: int) -> float | None:
         """The error of what the render contributes to the change from the frame before a place to
@@ -180,4 +192,5 @@ def faded(before: Result, after: Result, weight: float) -> Result:
         layers={} if layer is None else {"error": layer},
         stats=after.stats | {"error": error, "spp_done": spp},
         metadata=after.metadata | {"seed": seeds, "spp": f"{spp}"},
+        **faded_halves(before, after, weight),
     )
