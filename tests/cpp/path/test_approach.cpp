@@ -1,9 +1,7 @@
 // Equiangular distances, and light near lamps in a medium with and without their technique.
 #include <gtest/gtest.h>
 
-#include "harness/statistics.h"
-#include "path/path_tracer.h"
-#include "path/samplers.h"
+#include "along_one_ray.h"
 #include "scene_pieces.h"
 
 namespace mlt {
@@ -55,28 +53,11 @@ ScenePtr hazy_room(bool outside, double radius) {
                     "<rgb name='intensity' value='.01 .02 .03'/></emitter>");
 }
 
-/// Along one ray, so that little but the technique varies.
-Moments radiance(const Scene& scene, PathRules rules, bool equiangular, int samples) {
-  rules.equiangular = equiangular;
-  Moments found;
-  RayCounts rays;
-  for (int i = 0; i < samples; ++i) {
-    Rng rng(equiangular, Purpose::test, static_cast<uint64_t>(i));
-    RandomSampler sampler(rng);
-    const auto start = camera_ray(scene.camera(), Vec2(4, 3), sampler);
-    const Color rgb = trace_path(scene, rules, start.ray, sampler, rays);
-    found.add(rgb.x + 0.7 * rgb.y + 1.9 * rgb.z);
-  }
-  return found;
-}
-
 void expect_same_mean(const Scene& scene, int max_depth, int samples) {
-  PathRules rules;
-  rules.max_depth = max_depth;
-  const Moments with = radiance(scene, rules, true, samples);
-  const Moments without = radiance(scene, rules, false, samples);
-  EXPECT_GT(welch_t_test(with, without).p_value, 1e-3) << with.mean() << " for " << without.mean();
-  EXPECT_LT(with.variance(), 0.8 * without.variance());
+  PathRules with, without;
+  with.max_depth = without.max_depth = max_depth;
+  with.equiangular = true;
+  test::expect_same_mean(scene, with, without, samples, 0.8);
 }
 
 TEST(Approach, ChangesNoMeanNearALargeLamp) { expect_same_mean(*hazy_room(false, 0.8), 2, 800000); }

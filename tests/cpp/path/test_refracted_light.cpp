@@ -1,9 +1,7 @@
 // Light that enters a medium through a rough boundary, with and without its technique.
 #include <gtest/gtest.h>
 
-#include "harness/statistics.h"
-#include "path/path_tracer.h"
-#include "path/samplers.h"
+#include "along_one_ray.h"
 #include "scene_pieces.h"
 
 namespace mlt {
@@ -29,30 +27,12 @@ ScenePtr wax(const std::string& material, const std::string& inside = "") {
 const char* const rough =
     "type='roughdielectric'><float name='alpha' value='0.15'/><float name='int_ior' value='1.4'/>";
 
-/// Along one ray, so that little but the technique varies.
-Moments radiance(const Scene& scene, bool through_boundaries, int max_depth, int samples) {
-  PathRules rules;
-  rules.max_depth = max_depth;
-  rules.through_boundaries = through_boundaries;
-  Moments found;
-  RayCounts rays;
-  for (int i = 0; i < samples; ++i) {
-    Rng rng(through_boundaries, Purpose::test, static_cast<uint64_t>(i));
-    RandomSampler sampler(rng);
-    const auto start = camera_ray(scene.camera(), Vec2(4, 3), sampler);
-    const Color rgb = trace_path(scene, rules, start.ray, sampler, rays);
-    found.add(rgb.x + 0.7 * rgb.y + 1.9 * rgb.z);
-  }
-  return found;
-}
-
-/// The variance with the technique over that without.
 void expect_same_mean(const Scene& scene, int max_depth, int samples, double most_variance) {
   EXPECT_TRUE(scene.has_rough_boundaries());
-  const Moments with = radiance(scene, true, max_depth, samples);
-  const Moments without = radiance(scene, false, max_depth, samples);
-  EXPECT_GT(welch_t_test(with, without).p_value, 1e-3) << with.mean() << " for " << without.mean();
-  EXPECT_LT(with.variance(), most_variance * without.variance());
+  PathRules with, without;
+  with.max_depth = without.max_depth = max_depth;
+  with.through_boundaries = true;
+  test::expect_same_mean(scene, with, without, samples, most_variance);
 }
 
 TEST(RefractedLight, ChangesNoMeanOfLightScatteredOnce) {
