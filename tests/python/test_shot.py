@@ -261,6 +261,8 @@ def test_frames_together_flicker_less(tmp_path):
     alone, apart = images(tmp_path, "b", "1:4", together=1, spp=256, fps=100)
     assert together.shape == alone.shape
     assert [frame.stats.get("exposures") for frame in shot.frames] == [4] * 4
+    assert len({frame.stats["seconds"]["render"] for frame in shot.frames}) == 1
+    assert shot.frames[0].stats["spp_done"] == pytest.approx(256, rel=0.01)
     assert shot.flicker < 0.75 * apart.flicker
     assert 0.3 < shot.error / apart.error < 1.1
 

@@ -135,9 +135,11 @@ class WindowRender:
             return self.whole
         name = f"exposure.{place + 1}"
         error = self.whole.layers.get("error." + name)
-        spp = self.whole.stats["spp_done"] / sum(self.window.weights)
+        frames = sum(self.window.weights)
+        spp = self.whole.stats["spp_done"] / frames
         stats = {k: v for k, v in self.whole.stats.items() if k not in OF_WHOLE_IMAGES}
         stats |= {"exposures": self.count, "error": self.error(place), "spp_done": spp}
+        stats["seconds"] = {part: s / frames for part, s in self.whole.stats["seconds"].items()}
         metadata = {k: v for k, v in self.whole.metadata.items() if k != "light_groups"}
         found = replace(
             self.whole,
