@@ -15,7 +15,7 @@ std::string to_string(ParamType type) {
     case ParamType::motion: return "transform or animation";
     case ParamType::reflectance: return "reflectance (number, rgb or spectrum)";
     case ParamType::radiance: return "radiance (number, rgb or spectrum)";
-    case ParamType::lamp: return "radiance or animation";
+    case ParamType::lamp: return "radiance (number, rgb or spectrum) or animation";
     case ParamType::texture: return "reflectance or texture";
     case ParamType::emission: return "radiance or texture";
     case ParamType::volume: return "radiance or volume";

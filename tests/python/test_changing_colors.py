@@ -232,7 +232,7 @@ def test_what_cannot_change_is_refused(change, message):
         ),
         (
             {"type": "point", "intensity": {"type": "checkerboard"}},
-            "should be a radiance or animation",
+            r"should be a radiance \(number, rgb or spectrum\) or animation",
         ),
     ],
 )

@@ -69,7 +69,10 @@ TEST(AnimatedColors, MayBeTexturesAndReferences) {
 TEST(AnimatedColors, TellWhenTheyChange) {
   const LoadedScene loaded =
       load(square(animation(keys)) + "<shape type='sphere'>" +
-           animation("<transform time='-1'/><transform time='3'/>", "to_world") + "</shape>");
+           animation("<transform time='-1'/><transform time='3'><translate x='1'/></transform>"
+                     "<transform time='4'><translate x='1'/></transform>",
+                     "to_world") +
+           "</shape>");
   EXPECT_EQ(animation_times(loaded.tree),
             (std::vector<std::pair<double, double>>{{0, 2}, {-1, 3}}));
 }

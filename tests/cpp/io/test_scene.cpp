@@ -110,7 +110,7 @@ TEST(Scene, NamesTheLineOfASpectrumThatIsWrong) {
             "<string>:4: unknown texture 'blackbdy'; did you mean 'blackbody'?");
   EXPECT_EQ(error("<texture type='checkerboard' name='intensity'/>"),
             "<string>:4: emitter 'point': 'intensity' is a texture, but should be a radiance "
-            "(number, rgb or spectrum)");
+            "(number, rgb or spectrum) or animation");
 }
 
 TEST(Scene, MustBeTheRoot) {
