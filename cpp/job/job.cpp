@@ -151,6 +151,7 @@ void Job::lead() {
   } catch (const Abandoned&) {
     abandoned_ = true;
   } catch (const std::bad_alloc&) {
+    reserve_.release();  // The message takes memory, too.
     failure = std::make_exception_ptr(RenderError("out of memory; the render cannot go on"));
   } catch (...) {
     failure = std::current_exception();
