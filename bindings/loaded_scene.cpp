@@ -139,8 +139,7 @@ void bind_scene(py::module_& m) {
       .def(
           "animations", [](const LoadedScene& s) { return animation_times(s.tree); },
           "From when to when anything moves or changes: the times of keys that follow each other "
-          "and "
-          "differ.")
+          "and differ.")
       .def("parameters", &scene_parameters, "What can be changed, by name, with its current value.")
       .def(
           "updated",

@@ -45,7 +45,7 @@ struct CameraWalk {
   double survival = 1;     ///< Probability of having survived Russian roulette.
   Spectrum likelihood{1};  ///< See Passage.
   Approaches* approaches = nullptr;  ///< If it has the technique of approach.h.
-  LegsInside* inside = nullptr;      ///< If it has that of refracted_light.h.
+  LegsInside* inside = nullptr;      ///< If it has the technique of refracted_light.h.
 
   MisExponent mis{Heuristic::power};  ///< For the two techniques.
 

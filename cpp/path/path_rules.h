@@ -14,7 +14,7 @@ struct PathRules {
   bool hide_emitters = false;       ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;      ///< See `consistent_sides`.
   bool equiangular = false;         ///< Path tracing in media has the technique of approach.h, too.
-  bool through_boundaries = false;  ///< It has that of refracted_light.h, too.
+  bool through_boundaries = false;  ///< Likewise that of refracted_light.h.
   /// Whether waves (cpp/wave) make the paths where they can; else cpp/path, one by one.
   bool waves = true;
 

@@ -5,8 +5,8 @@
 // from x against it finds the vertex y, which is connected with z.
 //
 // A smooth boundary asks for the exact y (Walter et al. 2009, "Single scattering in refractive
-// media with triangle mesh boundaries"). A rough one sends light to x from all around it, so that a
-// few steps towards it do, and the density is that of the rough scattering: nothing is solved.
+// media with triangle mesh boundaries"). A rough one sends light to x from all around that point: a
+// few steps towards it are enough, and the density is that of the rough scattering.
 #pragma once
 
 #include "math/fresnel.h"

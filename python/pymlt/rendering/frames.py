@@ -135,10 +135,11 @@ def runs(scene: _core.Scene, timing: Timing, frames: list[int]) -> list[list[lis
     last one may have several frames.
     """
     found: list[list[list[int]]] = []
+    animations = scene.animations()
     for frame in frames:
         if not found or found[-1][-1][-1] != frame - 1:
             found.append([[frame]])
-        elif is_still(scene, timing, frame - 1, frame):
+        elif is_still(animations, timing, frame - 1, frame):
             found[-1][-1].append(frame)
         elif len(found[-1]) > 1 and len(found[-1][-1]) > 1:
             found.append([[frame]])
@@ -147,10 +148,10 @@ def runs(scene: _core.Scene, timing: Timing, frames: list[int]) -> list[list[lis
     return found
 
 
-def is_still(scene: _core.Scene, timing: Timing, first: int, last: int) -> bool:
+def is_still(animations: list[tuple[float, float]], timing: Timing, first: int, last: int) -> bool:
     """Whether nothing moves or changes from the first of these frames to the last."""
     begin, end = timing.times(first)[0], timing.times(last)[1]
-    return not any(start < end and stop > begin for start, stop in scene.animations())
+    return not any(start < end and stop > begin for start, stop in animations)
 
 
 def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str | None:
@@ -158,7 +159,7 @@ def stands_still(scene: _core.Scene, timing: Timing, frames: list[int]) -> str |
     animations = scene.animations()
     if not animations:
         return "nothing in the scene has an animation: all frames show the same"
-    if not is_still(scene, timing, min(frames), max(frames)):
+    if not is_still(animations, timing, min(frames), max(frames)):
         return None
     first, last = timing.times(min(frames))[0], timing.times(max(frames))[1]
     start, end = min(start for start, _ in animations), max(end for _, end in animations)
