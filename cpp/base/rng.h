@@ -23,7 +23,8 @@ enum class Purpose : uint64_t {
   sample,
   certain_light,
   manifold,
-  exposures
+  exposures,
+  boundary
 };
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.

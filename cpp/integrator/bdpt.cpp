@@ -49,8 +49,9 @@ struct BdptIntegrator : SampledDefaults {
     return layers;
   }
   static BdptSettings settings(Params& params) {
-    const BdptSettings settings{bidirectional_settings(params), params.boolean("techniques"),
-                                params.boolean("manifolds")};
+    BdptSettings settings{bidirectional_settings(params), params.boolean("techniques"),
+                          params.boolean("manifolds")};
+    settings.paths.rules.through_boundaries = params.boolean("through_boundaries");
     if (settings.manifolds && !settings.paths.light_image)
       params.fail("manifolds", "needs light_image");
     if (settings.techniques &&
@@ -93,7 +94,8 @@ Plugin integrator_bdpt() {
          "less."},
         {"manifolds", ParamType::boolean, false,
          "Find lights across chains of mirrors and glass, too (specular manifold sampling, "
-         "Zeltner, Georgiev & Jakob 2020), where other techniques find them too rarely."}}}));
+         "Zeltner, Georgiev & Jakob 2020), where other techniques find them too rarely."},
+        through_boundaries_parameter()}}));
 }
 
 }  // namespace mlt

@@ -39,6 +39,13 @@ PathRules path_rules(Params& params) {
   return rules;
 }
 
+Parameter through_boundaries_parameter() {
+  return {
+      "through_boundaries", ParamType::boolean, true,
+      "In media with rough boundaries that refract, such as wax and skin, light is also sampled "
+      "through these. Samples are then taken one by one."};
+}
+
 // ---- layers of light ----------------------------------------------------------------------------
 
 std::vector<Parameter> light_parameters() {

@@ -12,6 +12,8 @@ namespace mlt {
 /// Parameters of all integrators over paths, with Mitsuba's names and defaults.
 std::vector<Parameter> path_parameters();
 PathRules path_rules(Params& params);
+/// A parameter of those that render alone.
+Parameter through_boundaries_parameter();
 
 /// Parameters of integrators that keep layers of light.
 std::vector<Parameter> light_parameters();

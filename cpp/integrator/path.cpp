@@ -33,9 +33,7 @@ Plugin integrator_path() {
        {{"equiangular", ParamType::boolean, false,
          "In media, light is also gathered where a ray passes near a lamp (Kulla & Fajardo 2012). "
          "That pays where lamps stand in thin fog. Samples are then taken one by one."}},
-       {{"through_boundaries", ParamType::boolean, true,
-         "In media with rough boundaries that refract, such as wax and skin, light is also sampled "
-         "through these. Samples are then taken one by one."}},
+       {through_boundaries_parameter()},
        light_parameters()});
   schema.ignored = {"samples_per_pass", "block_size"};
   return make_plugin<SampledIntegrator<PathIntegrator>>(schema);

@@ -53,6 +53,7 @@ struct MutationContext {
       BidirectionalSettings settings;
       settings.rules = rules;
       settings.rules.rr_depth = PathRules::no_roulette;
+      settings.rules.through_boundaries = false;  // not among the techniques of these numbers
       scratch_->primary_walks = {{}, {}, {scene, settings}};
     }
     return *scratch_->primary_walks;

@@ -44,15 +44,17 @@ void PathTarget::evaluate_target(PathState& x) const {
   }
 }
 
-double PathTarget::refracted_density(const PathState& x) const {
-  if (x.edges() < 3 || !rules_.through_boundaries || !scene_->has_rough_boundaries()) return 0;
-  const SurfacePoint &z = x.path[0].at, &y = x.path[1].at, &inside = x.path[2].at;
-  const Vec3 w = x.terms.direction(2, -1);
-  if (!inside.in_medium() || !RefractedLight::ends_at(*scene_, y, w)) return 0;
+ExtraTechnique PathTarget::extra_technique(const PathState& x) const {
+  const ExtraTechnique refracted = refracted_technique(x);
+  if (refracted.count > 0 || !manifold_) return refracted;
+  return manifold_->technique(x.path, x.terms);
+}
+
+ExtraTechnique PathTarget::refracted_technique(const PathState& x) const {
+  if (!rules_.through_boundaries || !scene_->has_rough_boundaries()) return {};
   RayCounts rays;
   const Walker walker{*scene_, x.path.time, rays};
-  const Emitter& light = *scene_->emitters()[x.path[0].emitter];
-  return refracted_pdf(walker, light, inside, w, z) * x.terms[1].G;
+  return mlt::refracted_technique(walker, x.path, x.terms);
 }
 
 PathSeeds PathTarget::seeds() const {

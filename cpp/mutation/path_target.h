@@ -86,7 +86,7 @@ class PathTarget {
   }
   /// The density of samples of path tracing, over |f(x)|.
   double path_tracing_density(const PathState& x) const {
-    return mlt::path_tracing_density(ContributionMeasure{x.terms}, refracted_density(x));
+    return mlt::path_tracing_density(ContributionMeasure{x.terms}, refracted_technique(x));
   }
   /// Computes the terms that depend on vertices first ... last and their neighbours, then f and L*,
   /// without visibility. target = 0 if the path has no light, misses the image or breaks the rules.
@@ -111,13 +111,11 @@ class PathTarget {
                                                 : path_tracing_density(x);
   }
   double bidirectional_density(const PathState& x) const {
-    const ManifoldTechnique manifold =
-        manifold_ ? manifold_->technique(x.path, x.terms) : ManifoldTechnique();
-    return total_density(ContributionMeasure{x.terms}, manifold);
+    return total_density(ContributionMeasure{x.terms}, extra_technique(x));
   }
-
-  /// The density of x_0 and x_1 in the technique of refracted_light.h.
-  double refracted_density(const PathState& x) const;
+  /// The technique beside those of can_sample, of which a path has one at most.
+  ExtraTechnique extra_technique(const PathState& x) const;
+  ExtraTechnique refracted_technique(const PathState& x) const;
 
   ScenePtr scene_;
   PathRules rules_;

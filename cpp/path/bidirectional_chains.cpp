@@ -44,42 +44,21 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
   if (y.vertex.at.infinite()) return false;
   if (t > 1 && !scene_->bsdf(y.vertex.at).has_smooth()) return false;
   if (!manifold_->find(light_[0].vertex, y.vertex, time_, rng, rays)) return false;
-  const int s = connection.s = static_cast<int>(manifold_->found().size()) - 1;
-  if (!wanted(s, t)) return false;
+  connection.s = static_cast<int>(manifold_->found().size()) - 1;
+  if (!wanted(connection.s, t)) return false;
 
-  Path& path = manifold_path_;
-  path.vertices = manifold_->found();
-  path[s].lobe = Lobe::smooth;
-  for (int j = t - 2; j >= 0; --j) path.vertices.push_back(camera_[j].vertex);
-  path.time = time_;
-  path.wavelength = wavelength_;
-  const PathTerms& terms = manifold_terms_;
-  compute_terms(*scene_, path, {settings_.sample_direct, settings_.rules.strict_normals},
-                manifold_terms_);
-  const ManifoldTechnique technique = manifold_->technique(path, terms);
-  if (!(technique.count > 0) || !terms.raster) return false;
-  const Vec3 wl = terms.direction(s, -1), wc = t > 1 ? terms.direction(s, 1) : Vec3(0);
-  const VertexTerms at_y = vertex_terms(*scene_, path[s], wl, wc, settings_.rules.strict_normals);
-  Spectrum value = y.throughput * at_y.f / technique.count;
-  bool dispersed = y.dispersed || at_y.disperses;
-  for (int i = 0; i < s; ++i) {
-    value *= terms[i].vertex.f * (terms[i].G / terms[i].from_light);
-    dispersed = dispersed || terms[i].vertex.disperses;
-  }
-  if (is_black(value)) return false;
-  connection.raster = *terms.raster;
-  connection.certainty = certainty(terms);
-  const MisWeights weights = mis_weights(terms, s, settings_.heuristic, technique);
-  connection.weight = weights.chosen;
+  assembled_.vertices = manifold_->found();
+  complete_assembled(connection);
+  const ExtraTechnique technique = manifold_->technique(assembled_, assembled_terms_);
+  if (!evaluate_assembled(technique, connection)) return false;
   // Russian roulette: what other techniques find more easily is not worth the searches.
-  const double roulette = std::min(1.0, 8 * weights.balance);
+  const double roulette = std::min(1.0, 8 * connection.own_share / connection.survival);
   if (!(rng.next() < roulette)) return false;
   connection.searches = manifold_->find_again(time_, rng, rays);
-  connection.found_again = manifold_->guess(terms) * connection.searches / roulette;
-  connection.contribution = recorded(value * connection.found_again, wavelength_, dispersed);
-  connection.survival = y.survival;
-  connection.own_share = weights.balance * y.survival / connection.found_again;
-  return connection.weight > 0;
+  connection.found_again = manifold_->guess(assembled_terms_) * connection.searches / roulette;
+  connection.contribution *= connection.found_again;
+  connection.own_share /= connection.found_again;
+  return true;
 }
 
 }  // namespace mlt

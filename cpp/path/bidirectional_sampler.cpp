@@ -37,7 +37,7 @@ double BidirectionalSampler::certainty_of_hit_lens(int s, const Arrival& from_le
 }
 
 /// s = 0: the camera walk has hit a light.
-bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
+bool BidirectionalSampler::evaluate_hit_light(Connection& connection, RayCounts& rays) {
   const int t = connection.t;
   const WalkVertex& end = camera_[t - 1];
   const Vertex x0 = light_vertex(*connection.emitter, end.vertex.at);
@@ -55,7 +55,8 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   const TechniqueSums above = above_camera(t - 2, reverse, likelihood)
                                   .with(direct * camera_technique(t - 1, true))
                                   .over(from_light / end.forward)
-                                  .with(manifold_over_hit_light(x0, from_light, t));
+                                  .with(manifold_over_hit_light(x0, from_light, t))
+                                  .with(refracted_over_hit_light(x0, t, rays));
   return weigh(connection, 1, {}, above, end.survival);
 }
 
@@ -67,7 +68,7 @@ inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& 
   if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
   const double flown = fly_back(*scene_, x, likelihood);
   return below_light(i - 1, x.density_back(back) * flown, likelihood)
-      .with(light_technique(i, true));
+      .with(light_techniques(i, true));
 }
 inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x, double back,
                                                        Spectrum likelihood) const {
@@ -112,8 +113,14 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
 
   const TechniqueSums below =
       below_joint(s - 1, a, at_a.back, camera_likelihood).over(at_b.onwards * edge.G / a.forward);
-  const TechniqueSums above =
-      above_joint(t - 1, b, at_b.back, light_likelihood).over(at_a.onwards * edge.G / b.forward);
+  TechniqueSums above = above_joint(t - 1, b, at_b.back, light_likelihood);
+  if (refracts_ && s == 1 && t >= 3)
+    above = above.with(refracted_over(a.forward * at_a.onwards * edge.G, a.vertex, b.vertex,
+                                      camera_[t - 2].vertex, rays));
+  above = above.over(at_a.onwards * edge.G / b.forward);
+  if (refracts_ && s == 2)
+    above = above.with(
+        refracted_over(light_[0].forward * a.forward, light_[0].vertex, a.vertex, b.vertex, rays));
   return weigh(connection, direct ? direct_pdf_ / a.forward : 1, below, above,
                a.survival * b.survival);
 }
@@ -188,8 +195,8 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
 
 void BidirectionalSampler::assemble(const Connection& connection, Path& path) const {
   const int s = connection.s, t = connection.t;
-  if (connection.searches > 0) {
-    path = manifold_path_;
+  if (connection.assembled) {
+    path = assembled_;
     return;
   }
   path.vertices.clear();

@@ -5,9 +5,11 @@
 #pragma once
 
 #include "path/background_positions.h"
+#include "path/connection.h"
 #include "path/manifold_sampler.h"
 #include "path/mis.h"
 #include "path/path_terms.h"
+#include "path/refracted_light.h"
 #include "path/subpath.h"
 
 #include <vector>
@@ -23,30 +25,6 @@ struct BidirectionalSettings {
   std::shared_ptr<const ManifoldGuide> manifolds = nullptr;
 };
 
-/// How a path is made: s vertices by a walk from the light, t by one from the camera.
-struct Technique {
-  int s = 0, t = 0;
-
-  int edges() const { return s + t - 1; }
-};
-
-/// One path found by technique (s, t).
-struct Connection {
-  int s, t;
-  Vec2 raster;
-  Color contribution;  ///< f / p as a film records it, without the weight.
-  double weight;
-  const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
-  /// The factor that turns the contribution into f / P, with P the density of all techniques.
-  double own_share = 0;
-  double survival = 1;  ///< Probability of both subpaths in Russian roulette.
-  /// For a path found by ManifoldSampler the number of searches that have found it again, and what
-  /// its contribution is multiplied by since the probability of finding it is estimated.
-  int searches = 0;
-  double found_again = 1;
-  double certainty = 0;  ///< See certainty() of path_terms.h.
-};
-
 /// A light and a camera subpath, and the connections between them. Reuses its buffers from sample
 /// to sample.
 class BidirectionalSampler {
@@ -54,6 +32,8 @@ class BidirectionalSampler {
   BidirectionalSampler(const Scene& scene, const BidirectionalSettings& settings)
       : scene_(&scene), settings_(settings), lens_can_be_hit_(scene.camera().can_be_hit()) {
     if (settings.manifolds) manifold_.emplace(scene, settings.manifolds);
+    refracts_ = settings.rules.through_boundaries && settings.sample_direct &&
+                RefractedLight::serves(scene);
   }
 
   /// Draws both subpaths for a raster position.
@@ -64,8 +44,8 @@ class BidirectionalSampler {
     walk_from_camera(raster, {edges + 1, false}, sampler, rays);
     walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
-    if (manifold_) manifold_seed_ = static_cast<uint64_t>(0x1p53 * sampler.next());
-    sum_techniques();
+    if (manifold_ || refracts_) extra_seed_ = static_cast<uint64_t>(0x1p53 * sampler.next());
+    sum_techniques(rays);
   }
 
   /// Draws a raster position, and the parts of both subpaths that the technique needs; then calls
@@ -83,9 +63,9 @@ class BidirectionalSampler {
     if (s > 0 && !direct) walk_from_light(walker(rays), settings_.rules, most, sampler, light_);
     if (!direct && static_cast<int>(light_.size()) < most.vertices) return;
     sampler.begin(Stream::direct);
-    sum_techniques();
+    sum_techniques(rays);
     if (s == 0)
-      hit_one_light(t, sampler, found);
+      hit_one_light(t, sampler, rays, found);
     else if (t == 0)
       hit_lens(s, rays, found);
     else
@@ -100,7 +80,7 @@ class BidirectionalSampler {
     camera_.start(camera_vertex(lens.at), lens.pdf);
     walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
-    sum_techniques();
+    sum_techniques(rays);
   }
 
   /// Calls found(connection) for each path with a positive contribution.
@@ -108,6 +88,7 @@ class BidirectionalSampler {
   void connect_all(RayCounts& rays, Found&& found) {
     connect_walks(rays, found);
     if (manifold_) connect_by_manifolds(rays, found);
+    if (refracts_) connect_through_boundaries(rays, found);
   }
   /// As above, for the techniques that join two walks by an edge.
   template <class Found>
@@ -115,7 +96,7 @@ class BidirectionalSampler {
     if (settings_.light_image) connect_to_lens(rays, found);
     for (int t = 2; t <= static_cast<int>(camera_.size()); ++t) {
       check_abandoned();  // most pairs of vertices may need no ray, which would be counted
-      hit_light(t, found);
+      hit_light(t, rays, found);
       for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
         connect(s, t, rays, found);
     }
@@ -133,10 +114,20 @@ class BidirectionalSampler {
   /// Calls found(connection) for paths in which a chain joins the light to the camera subpath.
   template <class Found>
   void connect_by_manifolds(RayCounts& rays, Found&& found) {
-    Rng rng(manifold_seed_, Purpose::manifold, 0);
+    Rng rng(extra_seed_, Purpose::manifold, 0);
     for (int t = 1; t <= static_cast<int>(camera_.size()) && light_.size() > 0; ++t) {
       Connection connection{0, t, raster_, Color(0), 0};
       if (evaluate_manifold(connection, rng, rays)) found(connection);
+    }
+  }
+
+  /// Calls found(connection) for paths in which light enters a medium through a rough boundary.
+  template <class Found>
+  void connect_through_boundaries(RayCounts& rays, Found&& found) {
+    Rng rng(extra_seed_, Purpose::boundary, 0);
+    for (int t = 2; t <= static_cast<int>(camera_.size()); ++t) {
+      Connection connection{2, t, raster_, Color(0), 0};
+      if (wanted(2, t) && evaluate_refracted(connection, rng, rays)) found(connection);
     }
   }
 
@@ -195,14 +186,15 @@ class BidirectionalSampler {
   }
 
   template <class Sampler, class Found>
-  void hit_one_light(int t, Sampler& sampler, Found& found) {
+  void hit_one_light(int t, Sampler& sampler, RayCounts& rays, Found& found) {
     const std::vector<uint32_t>& infinite = scene_->infinite_emitters();
     const double u =
         sampler.next();  // for all paths, so that all of a technique draw as many numbers
-    if (!camera_[t - 1].vertex.at.infinite() || infinite.size() == 1) return hit_light(t, found);
+    if (!camera_[t - 1].vertex.at.infinite() || infinite.size() == 1)
+      return hit_light(t, rays, found);
     const double count = static_cast<double>(infinite.size());
     const auto chosen = static_cast<size_t>(u * count);
-    emit(*scene_->emitters()[infinite[chosen]], t, [&](Connection& connection) {
+    emit(*scene_->emitters()[infinite[chosen]], t, rays, [&](Connection& connection) {
       connection.contribution *= count;
       connection.own_share /= count;
       found(connection);
@@ -210,21 +202,21 @@ class BidirectionalSampler {
   }
 
   template <class Found>
-  void hit_light(int t, Found& found) {
+  void hit_light(int t, RayCounts& rays, Found& found) {
     if (!wanted(0, t)) return;
     const SurfacePoint& end = camera_[t - 1].vertex.at;
     if (end.infinite()) {
       for (const uint32_t index : scene_->infinite_emitters())
-        emit(*scene_->emitters()[index], t, found);
+        emit(*scene_->emitters()[index], t, rays, found);
     } else if (const Emitter* emitter = scene_->emitter(end)) {
-      emit(*emitter, t, found);
+      emit(*emitter, t, rays, found);
     }
   }
 
   template <class Found>
-  void emit(const Emitter& emitter, int t, Found&& found) {
+  void emit(const Emitter& emitter, int t, RayCounts& rays, Found&& found) {
     Connection connection{0, t, raster_, Color(0), 0, &emitter};
-    if (evaluate_hit_light(connection)) found(connection);
+    if (evaluate_hit_light(connection, rays)) found(connection);
   }
 
   template <class Found>
@@ -249,19 +241,25 @@ class BidirectionalSampler {
   TechniqueSums below_joint(int i, const WalkVertex& x, double back, Spectrum likelihood) const;
   TechniqueSums above_joint(int i, const WalkVertex& x, double back, Spectrum likelihood) const;
 
-  bool evaluate_hit_light(Connection& connection);
+  bool evaluate_hit_light(Connection& connection, RayCounts& rays);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
   bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
   bool evaluate_manifold(Connection& connection, Rng& rng, RayCounts& rays);
+  bool evaluate_refracted(Connection& connection, Rng& rng, RayCounts& rays);
+  void complete_assembled(const Connection& connection);
+  bool evaluate_assembled(const ExtraTechnique& technique, Connection& connection);
   double manifold_count(int m, const Vertex& end) const;
   double manifold_over_hit_light(const Vertex& x0, double from_light, int t) const;
+  double refracted_over(double density, const Vertex& x0, const Vertex& x1, const Vertex& x2,
+                        RayCounts& rays) const;
+  double refracted_over_hit_light(const Vertex& x0, int t, RayCounts& rays) const;
   void sample_backgrounds();
   bool choose_direct(int t);
 
   // The techniques that can make a path of these subpaths, indexed by the vertex of a subpath (its
   // end is number 0) that the joint has moved over.
-  void sum_techniques();
-  double light_technique(int i, bool joined = false) const;
+  void sum_techniques(RayCounts& rays);
+  TechniqueSums light_techniques(int i, bool joined = false) const;
   double camera_technique(int i, bool joined = false) const;
   /// The sums over techniques with a joint before or at vertex i of a subpath, whose density by a
   /// walk from the other end is `reverse`, and at which its likelihood is given.
@@ -290,11 +288,13 @@ class BidirectionalSampler {
   /// densities over that of the technique which joins before vertex i.
   std::vector<TechniqueSums> light_sums_, camera_sums_;
   std::optional<ManifoldSampler> manifold_;
-  uint64_t manifold_seed_ = 0;
-  Path manifold_path_;  ///< The path of the last evaluate_manifold().
-  PathTerms manifold_terms_;
+  bool refracts_ = false;  ///< Whether there is the technique of refracted_light.h.
+  uint64_t extra_seed_ = 0;
+  Path assembled_;  ///< The path of the last connection that was assembled.
+  PathTerms assembled_terms_;
   mutable std::vector<Vertex> chain_;  ///< Scratch: a chain and its ends.
   double light_direct_over_walk_ = 1;  ///< direct_over_walk() of the first two vertices of light_.
+  double light_refracted_ = 0;  ///< refracted_over() of its first three, over technique s = 2.
 };
 
 }  // namespace mlt

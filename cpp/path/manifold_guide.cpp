@@ -147,10 +147,10 @@ class ManifoldLessons {
     const double light = luminance(c.contribution) * c.own_share / c.survival * c.found_again;
     if (!std::isfinite(light)) return;
     light_ += light;
-    const ManifoldTechnique technique = manifolds_.technique(path_, terms_);
+    const ExtraTechnique technique = manifolds_.technique(path_, terms_);
     if (!(technique.count > 0)) return;
     Chains& chains = classes_[lobes_of(&path_[0], technique.s - 1)];
-    const MisWeights weights = mis_weights(terms_, technique.s, Heuristic::balance, technique);
+    const MisWeights weights = mis_weights(terms_, technique, Heuristic::balance);
     if (1 - weights.balance < rare_share) {
       chains.rare += light;
       if (technique.s < terms_.edges()) rare_scattered_ += light;

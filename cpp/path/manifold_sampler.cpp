@@ -11,7 +11,7 @@ double ManifoldSampler::chain_density(const Vertex* x0, int m, double lobes) con
   return guide_->guess(x0, m, lobes) * SpecularChain(*scene_, x0, m).density();
 }
 
-ManifoldTechnique ManifoldSampler::technique(const Path& path, const PathTerms& terms) const {
+ExtraTechnique ManifoldSampler::technique(const Path& path, const PathTerms& terms) const {
   int s = 1;
   double walk = 1;
   for (; !terms[s].connectable; ++s) walk *= terms[s].from_light;

@@ -46,7 +46,7 @@ class ManifoldSampler {
   /// two (see SpecularChain); `lobes` as for ManifoldGuide. 0 if the chain cannot be found.
   double chain_density(const Vertex* x0, int m, double lobes) const;
   /// The technique in the terms of a whole path.
-  ManifoldTechnique technique(const Path& path, const PathTerms& terms) const;
+  ExtraTechnique technique(const Path& path, const PathTerms& terms) const;
 
   /// Searches for a chain from x0 to y, once; false if none is found.
   bool find(const Vertex& x0, const Vertex& y, double time, Rng& rng, RayCounts& rays);

@@ -61,10 +61,10 @@ double from_camera(const Measure& in, int i) {
 /// l and c of light and camera walks. Technique 0 counts `hit_light` times.
 template <class Measure>
 double total_density(const Measure& in, int first, int end, double hit_light = 1,
-                     const ManifoldTechnique& manifold = {}) {
+                     const ExtraTechnique& extra = {}) {
   const auto joint = [&](int s) {
-    if (s == manifold.s) return manifold.count * in.joint(s);
-    return can_sample(in.x, s) ? in.joint(s) : 0.0;
+    const double count = (can_sample(in.x, s) ? 1 : 0) + (s == extra.s ? extra.count : 0);
+    return count > 0 ? count * in.joint(s) : 0;
   };
   double walk = 1;  // density of the vertices before i
   double sum = joint(first) * (first == 0 ? hit_light : 1);
@@ -76,21 +76,21 @@ double total_density(const Measure& in, int first, int end, double hit_light = 1
 }
 /// P(x) = sum over s of p_{s,t}(x), the density of all techniques together.
 template <class Measure>
-double total_density(const Measure& in, const ManifoldTechnique& manifold = {}) {
-  return total_density(in, 0, in.x.edges() + 1, 1, manifold);
+double total_density(const Measure& in, const ExtraTechnique& extra = {}) {
+  return total_density(in, 0, in.x.edges() + 1, 1, extra);
 }
 
 /// p_{0,k+1}(x) + p_{1,k}(x), the density of the two techniques of path tracing, which does not
-/// join the lens to a light; and of a third one that makes x_0 and x_1 for x_2 with the density
-/// `refracted` (refracted_light.h).
+/// join the lens to a light; and of the one of refracted_light.h.
 template <class Measure>
-double path_tracing_density(const Measure& in, double refracted = 0) {
+double path_tracing_density(const Measure& in, const ExtraTechnique& refracted = {}) {
   const PathTerms& x = in.x;
   double sum = can_sample(x, 0) ? in.joint(0) * from_camera(in, 0) : 0;
   if (x.edges() > 1 && can_sample(x, 1)) sum += x.direct * in.joint(1);
   for (int i = 1; i <= x.edges(); ++i) {
     sum *= from_camera(in, i);
-    if (i == 1 && refracted > 0) sum += refracted * unsampled(in, 0, 2);
+    if (i == 1 && refracted.count > 0)
+      sum += refracted.count * from_light(in, 0) * from_light(in, 1) * in.joint(2);
   }
   return sum;
 }

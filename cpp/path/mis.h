@@ -68,6 +68,9 @@ struct TechniqueSums {
   TechniqueSums with(double technique) const {
     return {technique + sum, sqr(technique) + squares, std::max(technique, largest)};
   }
+  TechniqueSums with(const TechniqueSums& others) const {
+    return {others.sum + sum, others.squares + squares, std::max(others.largest, largest)};
+  }
   /// The sums after the joint has moved inwards over a vertex, which divides p_s, and so
   /// multiplies all r_i by `quotient`.
   TechniqueSums over(double quotient) const {

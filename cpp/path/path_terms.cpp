@@ -49,6 +49,26 @@ void find_likelihoods(PathTerms& terms) {
   }
 }
 
+/// How often technique s counts in TechniqueSums.
+double technique_count(const PathTerms& terms, int s) {
+  if (!can_sample(terms, s)) return 0;
+  return s == 1 ? terms.direct / terms[0].from_light : 1;
+}
+
+/// The sums over the techniques with fewer than s vertices from the light, and with more.
+std::pair<TechniqueSums, TechniqueSums> other_techniques(const PathTerms& terms, int s,
+                                                         const ExtraTechnique& extra) {
+  const auto with = [&](const TechniqueSums& sums, int i) {
+    return sums.with(technique_count(terms, i)).with(i == extra.s ? extra.count : 0);
+  };
+  TechniqueSums below, above;
+  for (int i = 0; i < s; ++i)
+    below = with(below, i).over(terms[i].from_camera / terms[i].from_light);
+  for (int i = terms.edges(); i >= s; --i)
+    above = with(above, i + 1).over(terms[i].from_light / terms[i].from_camera);
+  return {below, above};
+}
+
 }  // namespace
 
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
@@ -155,18 +175,16 @@ double certainty(const PathTerms& terms) {
 }
 
 MisWeights mis_weights(const PathTerms& terms, int s, Heuristic heuristic,
-                       const ManifoldTechnique& manifold) {
-  const auto technique = [&](int i) {
-    if (i == manifold.s) return manifold.count;
-    return !can_sample(terms, i) ? 0 : i == 1 ? terms.direct / terms[0].from_light : 1.0;
-  };
-  if (technique(s) == 0) return {};
-  TechniqueSums below, above;
-  for (int i = 0; i < s; ++i)
-    below = below.with(technique(i)).over(terms[i].from_camera / terms[i].from_light);
-  for (int i = terms.edges(); i >= s; --i)
-    above = above.with(technique(i + 1)).over(terms[i].from_light / terms[i].from_camera);
-  return mis_weights(technique(s), below, above, heuristic);
+                       const ExtraTechnique& extra) {
+  const double own = technique_count(terms, s);
+  if (own == 0) return {};
+  auto [below, above] = other_techniques(terms, s, extra);
+  if (s == extra.s) below = below.with(extra.count);
+  return mis_weights(own, below, above, heuristic);
+}
+MisWeights mis_weights(const PathTerms& terms, const ExtraTechnique& extra, Heuristic heuristic) {
+  const auto [below, above] = other_techniques(terms, extra.s, extra);
+  return mis_weights(extra.count, below.with(technique_count(terms, extra.s)), above, heuristic);
 }
 
 int sample_technique(const PathTerms& terms, Heuristic heuristic, double u) {

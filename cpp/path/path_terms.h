@@ -149,9 +149,9 @@ inline bool can_sample(const PathTerms& terms, int s) {
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
 
-/// A technique beside those of can_sample (manifold_sampler.h): it makes the path with s vertices
-/// from the light, and counts `count` times in TechniqueSums. s = -1: none.
-struct ManifoldTechnique {
+/// A technique beside those of can_sample (manifold_sampler.h, refracted_light.h): it makes the path
+/// with s vertices from the light, and counts `count` times in TechniqueSums. s = -1: none.
+struct ExtraTechnique {
   int s = -1;
   double count = 0;
 };
@@ -160,9 +160,11 @@ struct ManifoldTechnique {
 /// 0. Where a walk stops in a medium that glows is never certain.
 double certainty(const PathTerms& terms);
 
-/// The MIS weights of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
+/// The MIS weights of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12), and those of
+/// the extra one.
 MisWeights mis_weights(const PathTerms& terms, int s, Heuristic heuristic,
-                       const ManifoldTechnique& manifold = {});
+                       const ExtraTechnique& extra = {});
+MisWeights mis_weights(const PathTerms& terms, const ExtraTechnique& extra, Heuristic heuristic);
 inline double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
   return mis_weights(terms, s, heuristic).chosen;
 }

@@ -7,17 +7,24 @@
 // A smooth boundary asks for the exact y (Walter et al. 2009, "Single scattering in refractive
 // media with triangle mesh boundaries"). A rough one sends light to x from all around that point: a
 // few steps towards it are enough, and the density is that of the rough scattering.
+//
+// In bidirectional path tracing it stands beside technique s = 2, and counts
+//
+//   density of x_0 and x_1 given x_2 / (from_light of x_0 and x_1)
+//
+// times in TechniqueSums.
 #pragma once
 
 #include "math/fresnel.h"
 #include "path/direct_light.h"
+#include "path/path_terms.h"
 
 namespace mlt {
 
 class RefractedLight {
  public:
   /// Whether light is sampled so. Lights at infinity that can be hit are large, and walks hit them.
-  static bool serves(const Emitter& light) { return !light.infinite() || light.delta_direction(); }
+  static bool serves(const Emitter& light) { return !light.infinite() || light.delta(); }
   static bool serves(const Scene& scene) {
     const auto& lights = scene.emitters();
     return scene.has_rough_boundaries() &&
@@ -112,6 +119,24 @@ inline double refracted_pdf(const Walker& walker, const Emitter& light, const Su
   if (!(entering > 0)) return 0;
   const double choice = walker.scene.emitter_probability_for(light.index(), x.p);
   return choice * light.pdf_direct(x.p, z) * entering;
+}
+
+/// The density of x_0 and x_1, in product-area measure, with which the technique makes them for x_2.
+inline double refracted_density(const Walker& walker, const Vertex& x0, const Vertex& x1,
+                                const Vertex& x2) {
+  if (!x2.at.in_medium()) return 0;
+  const Vec3 w = direction(x2.at, x1.at);
+  if (!RefractedLight::ends_at(walker.scene, x1.at, w)) return 0;
+  const Emitter& light = *walker.scene.emitters()[x0.emitter];
+  return refracted_pdf(walker, light, x2.at, w, x0.at) * geometry(x1.at, x2.at);
+}
+
+/// The technique in the terms of a whole path.
+inline ExtraTechnique refracted_technique(const Walker& walker, const Path& path,
+                                          const PathTerms& terms) {
+  if (path.edges() < 3 || !terms[1].connectable) return {};
+  const double refracted = refracted_density(walker, path[0], path[1], path[2]);
+  return {2, refracted > 0 ? refracted / (terms[0].from_light * terms[1].from_light) : 0};
 }
 
 /// A leg of a walk from a vertex x in a medium to a surface.

@@ -38,7 +38,8 @@ void find_edges(const JointLanes& a, const JointTechnique& technique, const Surf
 }  // namespace
 
 bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
-  return settings.rules.waves && settings.sample_direct &&
+  const bool refracts = settings.rules.through_boundaries && RefractedLight::serves(scene);
+  return settings.rules.waves && settings.sample_direct && !refracts &&
          settings.heuristic != Heuristic::maximum && !settings.manifolds &&
          !scene.has_coloured_media() && !scene.camera().clips_far();
 }

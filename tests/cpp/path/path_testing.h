@@ -40,6 +40,13 @@ void for_each_path(const Scene& scene, const BidirectionalSettings& settings, ui
   }
 }
 
+/// The weights of a connection by the terms of its path.
+inline MisWeights weights_by_terms(const Connection& c, const PathTerms& terms,
+                                   const ExtraTechnique& extra, Heuristic heuristic) {
+  return c.assembled ? mis_weights(terms, extra, heuristic)
+                     : mis_weights(terms, c.s, heuristic, extra);
+}
+
 /// What a broken twin of the naive implementation leaves out.
 enum class Flaw { none, no_direct, no_eta };
 

@@ -42,12 +42,12 @@ TEST_P(ManifoldsOf, WeighPathsByTheirTerms) {
       PathTerms terms;
       const auto weight_of = [&](const Path& x) {
         compute_terms(*scene_, x, {settings.sample_direct}, terms);
-        return std::vector<double>{
-            mis_weights(terms, c.s, heuristic, manifolds.technique(x, terms)).chosen};
+        const ExtraTechnique extra = manifolds.technique(x, terms);
+        return std::vector<double>{weights_by_terms(c, terms, extra, heuristic).chosen};
       };
       worst.add(excess(*scene_, path, weight_of, {c.weight}), technique_name(*scene_, c, path));
       compute_terms(*scene_, path, {settings.sample_direct}, terms);
-      const ManifoldTechnique technique = manifolds.technique(path, terms);
+      const ExtraTechnique technique = manifolds.technique(path, terms);
       joined += c.searches > 0;
       others += c.searches == 0 && technique.count > 0;
       if (c.searches > 0) {
@@ -82,9 +82,9 @@ TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
   const auto damped = [&](const Connection& c, bool manifold) {
     manifold ? with.assemble(c, path) : without.assemble(c, path);
     compute_terms(*scene_, path, {true}, terms);
-    const ManifoldTechnique technique = manifolds.technique(path, terms);
+    const ExtraTechnique technique = manifolds.technique(path, terms);
     if (!(technique.count > 0)) return 0.0;
-    const double share = mis_weights(terms, c.s, Heuristic::balance, technique).balance;
+    const double share = weights_by_terms(c, terms, technique, Heuristic::balance).balance;
     if (!(share > 0)) return 0.0;
     const double over_density = luminance(c.contribution) / c.found_again * share;
     const double factor = 1 / (1 + over_density / most);
