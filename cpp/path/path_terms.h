@@ -149,8 +149,8 @@ inline bool can_sample(const PathTerms& terms, int s) {
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
 
-/// A technique beside those of can_sample (manifold_sampler.h, refracted_light.h): it makes the path
-/// with s vertices from the light, and counts `count` times in TechniqueSums. s = -1: none.
+/// A technique beside those of can_sample (manifold_sampler.h, refracted_light.h): it makes the
+/// path with s vertices from the light, and counts `count` times in TechniqueSums. s = -1: none.
 struct ExtraTechnique {
   int s = -1;
   double count = 0;

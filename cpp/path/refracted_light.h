@@ -121,7 +121,7 @@ inline double refracted_pdf(const Walker& walker, const Emitter& light, const Su
   return choice * light.pdf_direct(x.p, z) * entering;
 }
 
-/// The density of x_0 and x_1, in product-area measure, with which the technique makes them for x_2.
+/// The density with which the technique makes x_0 and x_1 for x_2, in product-area measure.
 inline double refracted_density(const Walker& walker, const Vertex& x0, const Vertex& x1,
                                 const Vertex& x2) {
   if (!x2.at.in_medium()) return 0;

@@ -65,6 +65,9 @@ class BDPT(Integrator):
     manifolds : boolean, default False
         Find lights across chains of mirrors and glass, too (specular manifold sampling,
         Zeltner, Georgiev & Jakob 2020), where other techniques find them too rarely.
+    through_boundaries : boolean, default True
+        In media with rough boundaries that refract, such as wax and skin, light is also sampled
+        through these. Samples are then taken one by one.
     """
 
     max_depth: int
@@ -80,6 +83,7 @@ class BDPT(Integrator):
     heuristic: Literal["balance", "power", "maximum"]
     techniques: bool
     manifolds: bool
+    through_boundaries: bool
     def __init__(
         self,
         *,
@@ -96,6 +100,7 @@ class BDPT(Integrator):
         heuristic: Literal["balance", "power", "maximum"] = "power",
         techniques: bool = False,
         manifolds: bool = False,
+        through_boundaries: bool = True,
     ) -> None: ...
 
 class Depth(Integrator):
