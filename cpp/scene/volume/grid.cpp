@@ -34,6 +34,7 @@ Grid::Grid(const GridData& data, bool nearest, const std::string& name)
   check(data, name);
   store(data);
   find_empty_bricks(data);
+  join_empty_cubes();
 }
 
 void Grid::check(const GridData& data, const std::string& name) {
@@ -68,22 +69,56 @@ void Grid::store(const GridData& data) {
 
 void Grid::find_empty_bricks(const GridData& data) {
   for (int axis = 0; axis < 3; ++axis) bricks_[axis] = (cells(axis) + brick - 1) / brick;
-  empty_.assign(size_t(bricks_[0]) * bricks_[1] * bricks_[2], 1);
-  // Along each axis, value i is at a corner of the cells i and i + 1, or of cell i alone where
-  // cells are constant.
-  const int further = nearest_ ? 0 : 1;
+  empty_edges_.assign(size_t(bricks_[0]) * bricks_[1] * bricks_[2], brick);
   const float* value = data.values.data();
   for (int z = 0; z < size_[2]; ++z)
     for (int y = 0; y < size_[1]; ++y)
-      for (int x = 0; x < size_[0]; ++x, value += channels_) {
-        if (std::all_of(value, value + channels_,
-                        [](float v) { return without_subnormal(v) == 0; }))
-          continue;
-        for (int k = z / brick; k <= (z + further) / brick; ++k)
-          for (int j = y / brick; j <= (y + further) / brick; ++j)
-            for (int i = x / brick; i <= (x + further) / brick; ++i)
-              empty_[brick_place(i, j, k)] = 0;
-      }
+      for (int x = 0; x < size_[0]; ++x, value += channels_)
+        if (!std::all_of(value, value + channels_,
+                         [](float v) { return without_subnormal(v) == 0; }))
+          fill_around({x, y, z});
+  if (filled_low_.x > filled_high_.x) filled_low_ = filled_high_ = Vec3(0);
+}
+
+/// Notes that the cells around a value are not empty.
+void Grid::fill_around(const Index& value) {
+  // Along each axis, value i is at a corner of the cells i and i + 1, or of cell i alone where
+  // cells are constant.
+  const int further = nearest_ ? 0 : 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double first = value[axis], end = first + further + 1;
+    filled_low_[axis] = std::min(filled_low_[axis], std::max(first, low()));
+    filled_high_[axis] = std::max(filled_high_[axis], std::min(end, high(axis)));
+  }
+  const auto& [x, y, z] = value;
+  for (int k = z / brick; k <= (z + further) / brick; ++k)
+    for (int j = y / brick; j <= (y + further) / brick; ++j)
+      for (int i = x / brick; i <= (x + further) / brick; ++i)
+        empty_edges_[brick_place(i, j, k)] = 0;
+}
+
+void Grid::join_empty_cubes() {
+  for (int edge = 2 * brick; edge <= largest_cube; edge *= 2) {
+    const int step = edge / brick;
+    for (int z = 0; z < bricks_[2]; z += step)
+      for (int y = 0; y < bricks_[1]; y += step)
+        for (int x = 0; x < bricks_[0]; x += step) join_empty_cubes(edge, {x, y, z});
+  }
+}
+
+/// Makes one cube of eight that are empty, which begin at a brick; outside of the grid all are.
+void Grid::join_empty_cubes(int edge, const Index& first) {
+  Index end;
+  for (int axis = 0; axis < 3; ++axis)
+    end[axis] = std::min(first[axis] + edge / brick, bricks_[axis]);
+  const auto visit = [&](auto&& brick_at) {
+    for (int z = first[2]; z < end[2]; ++z)
+      for (int y = first[1]; y < end[1]; ++y)
+        for (int x = first[0]; x < end[0]; ++x) brick_at(empty_edges_[brick_place(x, y, z)]);
+  };
+  bool empty = true;
+  visit([&](uint8_t its_edge) { empty = empty && its_edge == edge / 2; });
+  if (empty) visit([&](uint8_t& its_edge) { its_edge = static_cast<uint8_t>(edge); });
 }
 
 }  // namespace mlt

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -67,11 +68,14 @@ class Grid {
     return cell;
   }
 
-  /// Bricks are cubes of cells; an empty one can be skipped.
-  static constexpr int brick = 8;
-  bool is_empty(const Index& cell) const {
-    return empty_[brick_place(cell[0] / brick, cell[1] / brick, cell[2] / brick)];
+  /// The edge of an empty cube of cells, which can be skipped, around a cell: 4, 8, 16 or 32, and
+  /// cells at its low sides have multiples of that as their indices; 0: the cell may not be empty.
+  int empty_cube(const Index& cell) const {
+    return empty_edges_[brick_place(cell[0] / brick, cell[1] / brick, cell[2] / brick)];
   }
+  /// The box of all cells that are not empty, as low() and high() count; around nothing it is void.
+  const Vec3& filled_low() const { return filled_low_; }
+  const Vec3& filled_high() const { return filled_high_; }
 
  private:
   /// The index of the value at the low corner of a cell. The values are stored with those that
@@ -94,6 +98,12 @@ class Grid {
   void check(const GridData& data, const std::string& name);
   void store(const GridData& data);
   void find_empty_bricks(const GridData& data);
+  void fill_around(const Index& value);
+  void join_empty_cubes();
+  void join_empty_cubes(int edge, const Index& first);
+
+  /// Bricks are the smallest cubes that can be skipped.
+  static constexpr int brick = 4, largest_cube = 32;
 
   std::array<int, 3> size_;
   int channels_;
@@ -103,7 +113,8 @@ class Grid {
   size_t along_edge_;
   Color maximum_{0};
   std::array<int, 3> bricks_{};
-  std::vector<uint8_t> empty_;
+  std::vector<uint8_t> empty_edges_;  ///< See empty_cube(); for each brick.
+  Vec3 filled_low_{std::numeric_limits<double>::infinity()}, filled_high_{-filled_low_};
 };
 
 }  // namespace mlt

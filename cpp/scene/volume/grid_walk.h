@@ -1,22 +1,20 @@
 // The cells of a grid along a line, in order (Amanatides & Woo 1987, "A fast voxel traversal
-// algorithm for ray tracing"), without those of empty bricks.
+// algorithm for ray tracing"), without those in empty cubes.
 #pragma once
 
 #include "scene/volume/grid.h"
-
-#include <limits>
 
 namespace mlt {
 
 class GridWalk {
  public:
-  /// The part of the line o + t d, 0 <= t <= distance, that is in the grid; in cells, from the
-  /// beginning of the first.
+  /// The part of the line o + t d, 0 <= t <= distance, that is in the box of what is not empty; in
+  /// cells, from the beginning of the grid's first.
   GridWalk(const Grid& grid, const Vec3& o, const Vec3& d, double distance)
       : grid_(&grid), o_(o), d_(d), per_d_(1.0 / d), t_(0), end_(distance) {
     for (int axis = 0; axis < 3; ++axis) {
       step_[axis] = d[axis] > 0 ? 1 : -1;
-      const double low = grid.low(), high = grid.high(axis);
+      const double low = grid.filled_low()[axis], high = grid.filled_high()[axis];
       if (d[axis] == 0) {
         if (!(low <= o[axis] && o[axis] <= high)) end_ = -1;
         continue;
@@ -33,31 +31,22 @@ class GridWalk {
   void run(Visit&& visit) {
     if (!(t_ < end_)) return;
     for (int axis = 0; axis < 3; ++axis) enter(axis, cell_at(axis, 0, grid_->cells(axis) - 1));
-    bool is_empty = grid_->is_empty(cell_);
-    for (;;) {
-      int axis;
-      if (is_empty) {
-        axis = leave_brick();
+    do {
+      if (const int edge = grid_->empty_cube(cell_)) {
+        leave_cube(edge);
         if (!(t_ < end_)) return;
       } else {
-        axis = nearest(side_);
-        const double to = std::min(side_[axis], end_);
+        const double side = least(side_), to = std::min(side, end_);
         if (t_ < to && !visit(cell_, t_, to)) return;
         t_ = std::max(t_, to);
-        if (!(side_[axis] < end_)) return;
+        if (!(side < end_)) return;
+        leave_cell(side);
       }
-      const int next = cell_[axis] + step_[axis];
-      if (next < 0 || next >= grid_->cells(axis)) return;
-      const bool same_brick = !is_empty && next / Grid::brick == cell_[axis] / Grid::brick;
-      enter(axis, next);
-      if (!same_brick) is_empty = grid_->is_empty(cell_);
-    }
+    } while (is_in_grid());
   }
 
  private:
-  static int nearest(const Vec3& t) {
-    return t.x <= t.y ? (t.x <= t.z ? 0 : 2) : (t.y <= t.z ? 1 : 2);
-  }
+  static double least(const Vec3& t) { return std::min(std::min(t.x, t.y), t.z); }
   int cell_at(int axis, int first, int last) const {
     return static_cast<int>(std::clamp(o_[axis] + t_ * d_[axis], double(first), double(last)));
   }
@@ -70,22 +59,34 @@ class GridWalk {
     cell_[axis] = cell;
     side_[axis] = far_side(axis, cell);
   }
-  /// Goes to the last cell in this brick; returns the axis along which the line leaves it.
-  int leave_brick() {
-    Grid::Index first, last;
+  bool is_in_grid() const {
+    bool is_in = true;
+    for (int axis = 0; axis < 3; ++axis)
+      is_in &= static_cast<unsigned>(cell_[axis]) < static_cast<unsigned>(grid_->cells(axis));
+    return is_in;
+  }
+  /// Goes on to the next cell: along each axis whose side is the nearest.
+  void leave_cell(double nearest) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool leaves = side_[axis] <= nearest;
+      cell_[axis] += leaves ? step_[axis] : 0;
+      side_[axis] += leaves ? std::fabs(per_d_[axis]) : 0.0;
+    }
+  }
+  /// Goes on to the first cell behind an empty cube.
+  void leave_cube(int edge) {
+    Grid::Index first;
     Vec3 side;
     for (int axis = 0; axis < 3; ++axis) {
-      first[axis] = cell_[axis] / Grid::brick * Grid::brick;
-      last[axis] = std::min(first[axis] + Grid::brick, grid_->cells(axis)) - 1;
-      side[axis] = far_side(axis, step_[axis] > 0 ? last[axis] : first[axis]);
+      first[axis] = cell_[axis] & -edge;
+      side[axis] = far_side(axis, step_[axis] > 0 ? first[axis] + edge - 1 : first[axis]);
     }
-    const int out = nearest(side);
-    t_ = std::max(t_, side[out]);
+    const double nearest = least(side);
+    t_ = std::max(t_, nearest);
     for (int axis = 0; axis < 3; ++axis)
-      enter(axis, axis != out       ? cell_at(axis, first[axis], last[axis])
-                  : step_[axis] > 0 ? last[axis]
-                                    : first[axis]);
-    return out;
+      enter(axis, side[axis] > nearest ? cell_at(axis, first[axis], first[axis] + edge - 1)
+                  : step_[axis] > 0    ? first[axis] + edge
+                                       : first[axis] - 1);
   }
 
   const Grid* grid_;

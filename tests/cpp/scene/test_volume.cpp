@@ -179,6 +179,93 @@ INSTANTIATE_TEST_SUITE_P(Grids, GridOf,
                                          Case{{19, 1, 23}, 3, false}, Case{{9, 20, 2}, 3, true},
                                          Case{{1, 1, 1}, 1, false}));
 
+/// A few values far from each other, and the larger cubes that are empty around them.
+class GridOfFewValues : public testing::TestWithParam<bool> {
+ protected:
+  bool nearest() const { return GetParam(); }
+  const GridData& data() const { return data_; }
+  Grid grid() const { return Grid(data_, nearest(), "a grid"); }
+
+ private:
+  static GridData few_values() {
+    GridData data{{70, 45, 50}, 1, std::vector<float>(70 * 45 * 50)};
+    const Grid::Index places[] = {{3, 41, 5}, {32, 31, 15}, {63, 16, 40}, {50, 7, 31}};
+    for (const auto& [x, y, z] : places)
+      for (int i = 0; i < 3; ++i) data.values[(z * 45 + y) * 70 + x + i] = 5;
+    return data;
+  }
+  GridData data_ = few_values();
+};
+
+TEST_P(GridOfFewValues, KnowsItsLargestEmptyCubes) {
+  const Grid grid = this->grid();
+  std::vector<bool> is_empty;  // of each cell: whether the values around it are 0
+  for (int z = 0; z < grid.cells(2); ++z)
+    for (int y = 0; y < grid.cells(1); ++y)
+      for (int x = 0; x < grid.cells(0); ++x) {
+        const Vec3 cell(x, y, z);
+        double sum = 0;
+        for (int i = 0; i < (nearest() ? 1 : 8); ++i) {
+          const Vec3 value = cell - Vec3(i & 1, i >> 1 & 1, i >> 2 & 1);
+          sum += naive_value(data(), true, value + 0.5).x;
+        }
+        is_empty.push_back(sum == 0);
+      }
+  const auto cube_is_empty = [&](const Grid::Index& in, int edge) {
+    Grid::Index begin, end;
+    for (int axis = 0; axis < 3; ++axis) {
+      begin[axis] = in[axis] / edge * edge;
+      end[axis] = std::min(begin[axis] + edge, grid.cells(axis));
+    }
+    for (int z = begin[2]; z < end[2]; ++z)
+      for (int y = begin[1]; y < end[1]; ++y)
+        for (int x = begin[0]; x < end[0]; ++x)
+          if (!is_empty[(z * grid.cells(1) + y) * grid.cells(0) + x]) return false;
+    return true;
+  };
+  std::array<int, 33> found{};
+  for (int z = 0; z < grid.cells(2); z += 4)
+    for (int y = 0; y < grid.cells(1); y += 4)
+      for (int x = 0; x < grid.cells(0); x += 4) {
+        int edge = 32;
+        while (edge >= 4 && !cube_is_empty({x, y, z}, edge)) edge /= 2;
+        if (edge < 4) edge = 0;
+        EXPECT_EQ(grid.empty_cube({x, y, z}), edge) << x << " " << y << " " << z;
+        ++found[edge];
+      }
+  for (const int edge : {0, 4, 8, 16, 32}) EXPECT_GT(found[edge], 0) << edge;
+}
+
+/// The sum over short steps along lines that pass near a value.
+TEST_P(GridOfFewValues, LosesNothingBetweenEmptyCubes) {
+  Mat4 to_world(1);
+  for (int axis = 0; axis < 3; ++axis) to_world[axis][axis] = data().size[axis];
+  const GridVolume volume(grid(), to_world);
+  Rng rng(6, Purpose::test, 0);
+  constexpr double step = 1. / 128, distance = 180;
+  const auto uniform = [&] { return Vec3(rng.next(), rng.next(), rng.next()); };
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 targets[] = {{4, 41, 5}, {33, 31, 15}, {64, 16, 40}, {51, 7, 31}};
+    const Vec3 to = targets[i % 4] + Vec3(0.5) + 0.5 * (uniform() - 0.5);
+    Ray ray{Vec3(70, 45, 50) * (1.6 * uniform() - 0.3), {0, 0, 1}};
+    ray.d = normalize(to - ray.o);
+    double sum = 0;
+    for (int k = 0; k < int(distance / step); ++k)
+      sum += step * naive_value(data(), nearest(), ray.o + (k + 0.5) * step * ray.d).x;
+    EXPECT_GT(sum, 0.5);
+    EXPECT_NEAR(volume.fly(ray, {distance}, 1).depth[0], sum, nearest() ? 10 * step : 0.01);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, GridOfFewValues, testing::Bool());
+
+TEST(Grid, SkipsAllOfAGridOfNothing) {
+  const GridVolume volume(Grid({{3, 4, 5}, 1, std::vector<float>(60)}, false, "smoke"), Mat4(1));
+  const Ray ray{{0.5, 0.4, -1}, {0, 0, 1}};
+  EXPECT_EQ(volume.fly(ray, {infinity}, 1).depth[0], 0);
+  EXPECT_FALSE(volume.fly(ray, {infinity, Spectrum(1), 1e-9}, 1).stops);
+}
+
 TEST(Grid, RefusesWhatIsNoExtinction) {
   GridData grid = sparse_grid({4, 5, 6}, 1, 1);
   grid.values[(3 * 5 + 2) * 4 + 1] = -1;
