@@ -80,9 +80,11 @@ namespace {
 /// Light is rare if other techniques have less than this share of its density.
 constexpr double rare_share = 0.1;
 /// The least share of rare light for which chains are searched, where samples that search take no
-/// longer than others or no other technique finds it, and the part of it along chains with the same
-/// lobes.
-constexpr double least_rare = 0.002, least_part = 0.25;
+/// longer than others or no other technique finds it.
+constexpr double least_rare = 0.002;
+/// The part of it along chains with the same lobes for which these are searched, or of all rare
+/// light, where there is little.
+constexpr double least_part = 0.25, least_part_of_rare = 0.02;
 /// The most searches, in the mean, that find a chain again: the square of that number is noise.
 constexpr double most_again = 3;
 
@@ -112,7 +114,7 @@ class ManifoldLessons {
   /// that is worth the searches.
   bool pay(double multiple) const {
     return light_.scattered > 0 && (is_part(multiple, rare_.scattered, light_.scattered) ||
-                                    is_hidden_part(multiple, hidden_));
+                                    hidden_ >= multiple * least_rare * light_.scattered);
   }
   /// For the lobes of the chains to be found, how often these are found over the probability of
   /// the lobes.
@@ -137,7 +139,6 @@ class ManifoldLessons {
   };
   struct Chains {
     Light rare;                   ///< The rare light along them.
-    double hidden = 0;            ///< Scattered light that no other technique finds.
     double found = 1, again = 1;  ///< Chains that were found, and the sum of their found_again.
   };
 
@@ -155,15 +156,11 @@ class ManifoldLessons {
                  least = least_rare * (1 + search / static_cast<double>(rays_.total()));
     return rare >= multiple * least * all;
   }
-  /// The same of light that no other technique finds, whatever the searches take.
-  bool is_hidden_part(double multiple, double hidden) const {
-    return hidden > 0 && hidden >= multiple * least_rare * light_.scattered;
-  }
   /// Whether such chains have enough of the light that is seen, or of that which is scattered.
   bool matter(const Chains& chains) const {
     return is_part(least_part, chains.rare.all, light_.all) ||
            is_part(least_part, chains.rare.scattered, light_.scattered) ||
-           is_hidden_part(least_part, chains.hidden);
+           chains.rare.scattered >= least_part_of_rare * rare_.scattered;
   }
 
   void learn(const Connection& c) {
@@ -182,10 +179,7 @@ class ManifoldLessons {
       chains.rare.add(light, scattered);
       rare_.add(light, scattered);
     }
-    if (scattered && weights.balance == 1) {
-      chains.hidden += light;
-      hidden_ += light;
-    }
+    if (scattered && weights.balance == 1) hidden_ += light;
     if (c.searches == 0) return;
     ++chains.found;
     chains.again += c.found_again;
@@ -197,7 +191,7 @@ class ManifoldLessons {
   BidirectionalSampler paths_;
   std::unordered_map<uint64_t, Chains> classes_;
   Light light_, rare_;
-  double hidden_ = 0;
+  double hidden_ = 0;  ///< Scattered light that no other technique finds.
   uint64_t taken_ = 0;
   RayCounts rays_, searching_;
   Path path_;
