@@ -41,7 +41,7 @@ class TargetMap {
     return factors_[(certainty > 0 ? 0 : cells_.count()) + cells_.at(raster)];
   }
 
-  /// Those of all light, and then those of scattered light.
+  /// The factors of all light, and then of scattered light.
   const std::vector<double>& factors() const { return factors_; }
   void set_factors(std::vector<double> factors);
 

@@ -21,7 +21,7 @@ namespace mlt {
 struct PathWeights {
   /// T / (P c) of a path whose f / P has L* = 1; 0: all weights are 1.
   double factor = 0;
-  double certain_factor = 0;  ///< The same of a path whose `certainty` is above 0.
+  double certain_factor = 0;  ///< `factor` of a path whose certainty is above 0.
   /// Chains do not find paths with a greater `certainty`.
   double most_certain = std::numeric_limits<double>::infinity();
 

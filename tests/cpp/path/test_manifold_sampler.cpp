@@ -192,7 +192,7 @@ TEST(ManifoldPhotons, AreFewIfTheirRaysAre) {
   EXPECT_LT(few->size(), 1 << 10);
 }
 
-/// Most light is that of the wire, which a few pixels see, and hardly any comes from what it lights.
+/// Most light is that of the wire, which a few pixels see, and little comes from what it lights.
 TEST(ManifoldSampler, IsUsedWhereAWireInGlassOutshinesWhatItLights) {
   const ScenePtr scene = load_scene(
       camera("0.3, 0.7, 1.3", "0, 0.4, 0", 45, film(64, 36)) +
