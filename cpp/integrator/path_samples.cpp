@@ -72,7 +72,8 @@ std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target,
   const Scene& scene = target.scene();
   const double threshold = radiance_scale(scene) * weights.threshold();
   const auto weights_at = [&target, threshold](const Vec2& raster) {
-    return PathWeights{target.factor(raster) / threshold, target.most_certain(raster)};
+    return PathWeights{target.factor(raster, 0) / threshold, target.factor(raster, 1) / threshold,
+                       target.most_certain(raster)};
   };
   return take_alone(
       WeightedPathEstimator(target, weights_at),

@@ -66,14 +66,17 @@ class PathTarget {
   }
 
   /// The factor of two-stage sampling.
-  double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
+  double factor(const Vec2& raster, double certainty) const {
+    return map_ ? (*map_)(raster, certainty) : 1.0;
+  }
   /// The weights of samples and chains; without any samples, T' is T.
   const ClampingWeights& weights() const { return weights_; }
   void set_weights(const ClampingWeights& weights) { weights_ = weights; }
 
   /// T for light of this color, f or f / p, at a raster position, by a path of this certainty.
   double of(const Color& color, const Vec2& raster, double certainty) const {
-    return certainty > most_certain(raster) ? 0 : target_luminance(color) * factor(raster);
+    return certainty > most_certain(raster) ? 0
+                                            : target_luminance(color) * factor(raster, certainty);
   }
   /// tau(x) = T(x) / P(x), where P is the density of the samples of the image.
   double over_density(const PathState& x) const {

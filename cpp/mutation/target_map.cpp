@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace mlt {
 namespace {
@@ -62,15 +63,35 @@ void find_brightness(Blocks& small, const Blocks& large) {
     }
 }
 
+/// 1 over the brightness of the cells in units of the mean, and the mean.
+std::pair<std::vector<double>, double> inverse_brightness(Blocks cells) {
+  constexpr double least_share = 0.05;  // of the mean: no region is preferred more than 20 times
+  std::vector<Blocks> sizes{std::move(cells)};
+  while (sizes.back().sums.size() > 1) sizes.push_back(larger_blocks(sizes.back()));
+  Blocks& whole = sizes.back();
+  const double mean = whole.sums[0] / whole.cells[0];
+  whole.brightness = {mean};
+  for (size_t i = sizes.size() - 1; i > 0; --i) find_brightness(sizes[i - 1], sizes[i]);
+  std::vector<double> factors;
+  for (const double brightness : sizes[0].brightness)
+    factors.push_back(mean > 0 ? 1 / std::max(least_share, brightness / mean) : 1.0);
+  return {std::move(factors), mean};
+}
+
 }  // namespace
 
 TargetMap::TargetMap(const Raster& raster, int cell)
-    : cells_(RasterCells::of(raster, cell)), factors_(cells_.count()), squares_(cells_.count()) {}
+    : cells_(RasterCells::of(raster, cell)),
+      factors_(2 * cells_.count()),
+      squares_(2 * cells_.count()) {}
 
-void TargetMap::add(const Vec2& raster, double brightness) {
-  const size_t i = cells_.at(raster);
-  factors_[i] += brightness;
-  squares_[i] += brightness * brightness;
+void TargetMap::add(const Vec2& raster, double brightness, double certainty) {
+  const size_t all = cells_.at(raster), scattered = cells_.count() + all;
+  for (const size_t i : {all, scattered}) {
+    if (i == scattered && certainty > 0) break;
+    factors_[i] += brightness;
+    squares_[i] += brightness * brightness;
+  }
 }
 
 void TargetMap::add(const TargetMap& other) {
@@ -80,17 +101,26 @@ void TargetMap::add(const TargetMap& other) {
   }
 }
 
+/// The target has the same mean over the image, whether all light is divided by the brightness of
+/// all or scattered light by its own.
 void TargetMap::finish() {
-  constexpr double least_share = 0.05;  // of the mean: no region is preferred more than 20 times
-  std::vector<Blocks> sizes{{cells_.columns, cells_.rows, factors_, std::move(squares_),
-                             std::vector<double>(cells_.count(), 1)}};
-  while (sizes.back().sums.size() > 1) sizes.push_back(larger_blocks(sizes.back()));
-  Blocks& whole = sizes.back();
-  const double mean = whole.sums[0] / whole.cells[0];
-  whole.brightness = {mean};
-  for (size_t i = sizes.size() - 1; i > 0; --i) find_brightness(sizes[i - 1], sizes[i]);
-  for (size_t i = 0; i < factors_.size(); ++i)
-    factors_[i] = mean > 0 ? 1 / std::max(least_share, sizes[0].brightness[i] / mean) : 1.0;
+  const auto half = [](const std::vector<double>& values, bool second) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    return second ? std::vector<double>(middle, values.end())
+                  : std::vector<double>(values.begin(), middle);
+  };
+  const auto blocks = [&](bool scattered) {
+    return Blocks{cells_.columns, cells_.rows, half(factors_, scattered), half(squares_, scattered),
+                  std::vector<double>(cells_.count(), 1)};
+  };
+  const auto [of_all, mean] = inverse_brightness(blocks(false));
+  const auto [of_scattered, scattered_mean] = inverse_brightness(blocks(true));
+  for (size_t i = 0; i < cells_.count(); ++i) {
+    factors_[i] = of_all[i];
+    factors_[cells_.count() + i] =
+        scattered_mean > 0 ? of_scattered[i] * (mean / scattered_mean) : of_all[i];
+  }
+  squares_.clear();
 }
 
 void TargetMap::set_factors(std::vector<double> factors) {

@@ -11,6 +11,10 @@
 // of a normal distribution whose prior weighs as much as k samples). Here n is the effective sample
 // size of a block, (sum w)^2 / sum w^2 (L. Kish, "Survey sampling", 1965), shared among its
 // parts, so that one bright sample counts as one, and an empty cell among bright ones is dark.
+//
+// A lamp that is seen, directly or by mirrors and glass, may be a thousand times as bright as what
+// surrounds it. So light that is scattered before it comes to the lens is divided by its own
+// brightness, and light that is not, whose `certainty` (path_terms.h) is above 0, by that of all.
 #pragma once
 
 #include "math/color.h"
@@ -26,15 +30,18 @@ class TargetMap {
   TargetMap(const Raster& raster, int cell);
 
   /// Adds one sample of the coarse image.
-  void add(const Vec2& raster, double brightness);
+  void add(const Vec2& raster, double brightness, double certainty = 0);
   void add(const TargetMap& other);
   /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of
   /// the mean.
   void finish();
 
-  /// The factor of the target at a raster position.
-  double operator()(const Vec2& raster) const { return factors_[cells_.at(raster)]; }
+  /// The factor of the target of a path of this certainty at a raster position.
+  double operator()(const Vec2& raster, double certainty = 0) const {
+    return factors_[(certainty > 0 ? 0 : cells_.count()) + cells_.at(raster)];
+  }
 
+  /// The factors of all light, and then of scattered light.
   const std::vector<double>& factors() const { return factors_; }
   void set_factors(std::vector<double> factors);
 

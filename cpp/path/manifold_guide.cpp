@@ -80,8 +80,11 @@ namespace {
 /// Light is rare if other techniques have less than this share of its density.
 constexpr double rare_share = 0.1;
 /// The least share of rare light for which chains are searched, where samples that search take no
-/// longer than others, and the part of it along chains with the same lobes.
-constexpr double least_rare = 0.002, least_part = 0.25;
+/// longer than others or no other technique finds it.
+constexpr double least_rare = 0.002;
+/// The part of it along chains with the same lobes for which these are searched, or of all rare
+/// light, where there is little.
+constexpr double least_part = 0.25, least_part_of_rare = 0.02;
 /// The most searches, in the mean, that find a chain again: the square of that number is noise.
 constexpr double most_again = 3;
 
@@ -107,28 +110,35 @@ class ManifoldLessons {
     }
   }
 
-  /// The share of rare light, scattered before it comes to the lens, that is worth the searches.
-  double least() const {
-    const double search = static_cast<double>(searching_.total());
-    return least_rare * (1 + search / static_cast<double>(rays_.total()));
-  }
-  /// Whether there is this multiple of it.
+  /// Whether light that is scattered before it comes to the lens has this multiple of the share
+  /// that is worth the searches.
   bool pay(double multiple) const {
-    return light_ > 0 && rare_scattered_ / light_ >= multiple * least();
+    return light_.scattered > 0 && (is_part(multiple, rare_.scattered, light_.scattered) ||
+                                    hidden_ >= multiple * least_rare * light_.scattered);
   }
   /// For the lobes of the chains to be found, how often these are found over the probability of
   /// the lobes.
   std::unordered_map<uint64_t, double> ratios() const {
     std::unordered_map<uint64_t, double> ratios;
     for (const auto& [lobes, chains] : classes_)
-      if (chains.rare >= least_part * least() * light_ && chains.again <= most_again * chains.found)
+      if (matter(chains) && chains.again <= most_again * chains.found)
         ratios[lobes] = chains.found / chains.again;
     return ratios;
   }
 
  private:
+  /// Sums of all light of a kind, and of what is scattered before it comes to the lens: where a
+  /// lamp is seen in a few pixels, it may be most of the light, and hardly any of the image.
+  struct Light {
+    double all = 0, scattered = 0;
+
+    void add(double light, bool is_scattered) {
+      all += light;
+      if (is_scattered) scattered += light;
+    }
+  };
   struct Chains {
-    double rare = 0;              ///< The rare light along them.
+    Light rare;                   ///< The rare light along them.
     double found = 1, again = 1;  ///< Chains that were found, and the sum of their found_again.
   };
 
@@ -140,21 +150,36 @@ class ManifoldLessons {
     return settings;
   }
 
+  /// Whether this rare light is a part of all that is worth its multiple of the searches.
+  bool is_part(double multiple, double rare, double all) const {
+    const double search = static_cast<double>(searching_.total()),
+                 least = least_rare * (1 + search / static_cast<double>(rays_.total()));
+    return rare >= multiple * least * all;
+  }
+  /// Whether such chains have enough of the light that is seen, or of that which is scattered.
+  bool matter(const Chains& chains) const {
+    return is_part(least_part, chains.rare.all, light_.all) ||
+           is_part(least_part, chains.rare.scattered, light_.scattered) ||
+           chains.rare.scattered >= least_part_of_rare * rare_.scattered;
+  }
+
   void learn(const Connection& c) {
     paths_.assemble(c, path_);
     compute_terms(*scene_, path_, {true, paths_.settings().rules.strict_normals}, terms_);
     // weighted by the balance heuristic, so that sums are those of all techniques
     const double light = luminance(c.contribution) * c.own_share / c.survival * c.found_again;
     if (!std::isfinite(light)) return;
-    light_ += light;
+    const bool scattered = !(c.certainty > 0);
+    light_.add(light, scattered);
     const ExtraTechnique technique = manifolds_.technique(path_, terms_);
     if (!(technique.count > 0)) return;
     Chains& chains = classes_[lobes_of(&path_[0], technique.s - 1)];
     const MisWeights weights = mis_weights(terms_, technique, Heuristic::balance);
     if (1 - weights.balance < rare_share) {
-      chains.rare += light;
-      if (technique.s < terms_.edges()) rare_scattered_ += light;
+      chains.rare.add(light, scattered);
+      rare_.add(light, scattered);
     }
+    if (scattered && weights.balance == 1) hidden_ += light;
     if (c.searches == 0) return;
     ++chains.found;
     chains.again += c.found_again;
@@ -165,7 +190,8 @@ class ManifoldLessons {
   ManifoldSampler manifolds_;
   BidirectionalSampler paths_;
   std::unordered_map<uint64_t, Chains> classes_;
-  double light_ = 0, rare_scattered_ = 0;
+  Light light_, rare_;
+  double hidden_ = 0;  ///< Scattered light that no other technique finds.
   uint64_t taken_ = 0;
   RayCounts rays_, searching_;
   Path path_;

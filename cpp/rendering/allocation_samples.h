@@ -110,7 +110,7 @@ class AllocationSamples {
     for (const FoundLight& one : found) {
       if (!(one.weight > 0)) continue;
       sums.brightest = std::max(sums.brightest, one.target_over_density);
-      const double value = target_luminance(one.rgb) * coarse_.map(one.raster);
+      const double value = target_luminance(one.rgb) * coarse_.map(one.raster, one.certainty);
       for (int t = 0; t < threshold_count; ++t) {
         const double clamped =
             value * ClampingWeights::of_sample(one.target_over_density, coarse_.b * threshold(t));

@@ -14,7 +14,7 @@ struct CoarseImage {
   explicit CoarseImage(const Raster& raster) : map(blank_image(raster)) {}
 
   void add(const FoundLight& found) {
-    map.add(found.raster, found.weight);
+    map.add(found.raster, found.weight, found.certainty);
     b += found.weight;
   }
 

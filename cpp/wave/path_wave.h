@@ -21,13 +21,15 @@ namespace mlt {
 struct PathWeights {
   /// T / (P c) of a path whose f / P has L* = 1; 0: all weights are 1.
   double factor = 0;
+  double certain_factor = 0;  ///< `factor` of a path whose certainty is above 0.
   /// Chains do not find paths with a greater `certainty`.
   double most_certain = std::numeric_limits<double>::infinity();
 
   /// The weight of a path; with the balance heuristic f / P is its radiance, without roulette.
   double of(const Color& radiance, double survival, double certainty) const {
     if (!(factor > 0 && certainty <= most_certain)) return 1;
-    return ClampingWeights::of_sample(factor * survival * target_luminance(radiance), 1);
+    const double tau = (certainty > 0 ? certain_factor : factor) * survival;
+    return ClampingWeights::of_sample(tau * target_luminance(radiance), 1);
   }
 };
 

@@ -58,6 +58,25 @@ TEST(TargetMap, IsSmoothWhereThereAreFewSamples) {
   EXPECT_LT(map({24, 8}), 2 * map({8, 8}));
 }
 
+/// A lamp in a cell does not take the samples of what else is there.
+TEST(TargetMap, DividesScatteredLightByItsOwnBrightness) {
+  TargetMap map = even_map(100);
+  for (int i = 0; i < 100; ++i) map.add({70, 40}, 1000, 0.9);
+  map.finish();
+  const double mean = (64 + 1000) / 64.0;
+  EXPECT_NEAR(map({70, 40}), mean, 1e-9 * mean);
+  EXPECT_NEAR(map({8, 120}), mean, 1e-9 * mean);
+  EXPECT_LT(map({70, 40}, 0.9), 0.1);
+}
+
+TEST(TargetMap, IsThatOfAllLightWhereNoneIsScattered) {
+  TargetMap map = even_map(0);
+  for (int x = 0; x < 128; x += 16) map.add({x, 40}, 9, 1);
+  map.finish();
+  EXPECT_LT(map({64, 40}), 0.5 * map({64, 100}));
+  EXPECT_EQ(map({64, 40}), map({64, 40}, 1));
+}
+
 TEST(TargetMap, IsEvenWithoutLight) {
   TargetMap map = even_map(0);
   map.finish();

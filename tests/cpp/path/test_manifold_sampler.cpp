@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "path_testing.h"
+#include "scene_pieces.h"
 
 namespace mlt {
 namespace {
@@ -189,6 +190,32 @@ TEST(ManifoldPhotons, AreFewIfTheirRaysAre) {
   const auto few = send_photons(*make_scene("caustic").scene, 1 << 10);
   EXPECT_GT(few->size(), 10);
   EXPECT_LT(few->size(), 1 << 10);
+}
+
+/// Most light is that of the wire, which a few pixels see, and little comes from what it lights.
+TEST(ManifoldSampler, IsUsedWhereAWireInGlassOutshinesWhatItLights) {
+  const ScenePtr scene = load_scene(
+      camera("0.3, 0.7, 1.3", "0, 0.4, 0", 45, film(64, 36)) +
+      rectangle(scale(4) + rotate("x", -90), diffuse("0.05 0.05 0.05")) +
+      rectangle(scale(4) + translate(0, 0, -1.2), diffuse("0.05 0.05 0.05")) +
+      sphere(0, 0.4, 0, 0.3, glass) +
+      sphere(0, 0.4, 0, 0.285, "<boolean name='flip_normals' value='true'/>" + glass) +
+      "<shape type='cylinder'><point name='p0' x='-0.1' y='0.4' z='0'/>"
+      "<point name='p1' x='0.1' y='0.43' z='0.02'/><float name='radius' value='0.002'/>" +
+      area_light("900 600 300") + "</shape>");
+  EXPECT_TRUE(learn_manifolds(*scene, {}));
+}
+
+/// A block of glass takes little of the image, but what is inside is black without the search.
+TEST(ManifoldSampler, IsUsedWhereNothingElseFindsTheLight) {
+  const ScenePtr scene =
+      load_scene(camera("0.5, 1.6, 3.6", "0, 0.2, 0", 50, film(64, 36)) +
+                 rectangle(scale(8) + rotate("x", -90), white) +
+                 cube(scale(0.2) + rotate("y", 25) + translate(0, 0.201, 0), glass) +
+                 sphere(0, 0.2, 0, 0.1, white) +
+                 "<emitter type='directional'><vector name='direction' x='0.4' y='-1' z='-0.3'/>"
+                 "<rgb name='irradiance' value='3'/></emitter>");
+  EXPECT_TRUE(learn_manifolds(*scene, {}));
 }
 
 TEST(ManifoldSampler, IsNotUsedWhereNothingIsSpecular) {

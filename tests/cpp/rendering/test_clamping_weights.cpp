@@ -37,13 +37,14 @@ TEST(ClampingWeights, AreNumbersWhereThereIsNoTarget) {
   for (const double even : {0.0, 1.0}) EXPECT_EQ(ClampingWeights(even).of_chain(0), 0);
 }
 
-/// With a map that tells regions apart.
+/// With a map that tells regions apart, and lights that are seen from light that is scattered.
 PathTarget target_of(const TestScene& made) {
   PathRules rules{8};
   rules.through_boundaries = true;
   PathTarget target(made.scene, rules);
   TargetMap map = blank_image(made.scene->camera().raster());
   map.add({3, 4}, 1);
+  map.add({6, 2}, 2, 1);
   map.finish();
   target.set_map(map);
   return target;
