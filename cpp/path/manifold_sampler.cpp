@@ -36,7 +36,7 @@ bool ManifoldSampler::draw_seed(const Vertex& x0, const Vec3& aim, double time, 
     seed_.push_back(x);
     ray = *next;
   }
-  if (!hit) x.at.p = ray.o + ray.d;
+  if (!hit) x.at.p = ray.o + scene_->bounds().radius * ray.d;
   seed_.push_back(x);
   return seed_.size() > 2;
 }
