@@ -86,12 +86,13 @@ TargetMap::TargetMap(const Raster& raster, int cell)
       squares_(2 * cells_.count()) {}
 
 void TargetMap::add(const Vec2& raster, double brightness, double certainty) {
-  const size_t all = cells_.at(raster), scattered = cells_.count() + all;
-  for (const size_t i : {all, scattered}) {
-    if (i == scattered && certainty > 0) break;
+  const auto add_at = [&](size_t i) {
     factors_[i] += brightness;
     squares_[i] += brightness * brightness;
-  }
+  };
+  const size_t cell = cells_.at(raster);
+  add_at(cell);
+  if (!(certainty > 0)) add_at(cells_.count() + cell);
 }
 
 void TargetMap::add(const TargetMap& other) {

@@ -31,14 +31,9 @@ bool BidirectionalSampler::evaluate_refracted(Connection& connection, Rng& rng, 
   if (!refracted.exists()) return false;
   RandomSampler sampler(rng);
   const auto sampled = refracted.sample(StepNumbers::draw(sampler));
-  if (!sampled || !(sampled->pdf > 0)) return false;
-  SurfacePoint y;
-  Passage leg;
-  if (!walker.arrive(walker.leave(x, sampled->w), 0, y, leg) ||
-      !RefractedLight::ends_at(*scene_, y, sampled->w))
-    return false;
+  if (!sampled) return false;
 
-  assembled_.vertices = {x0, inner_vertex(y), camera_[connection.t - 1].vertex};
+  assembled_.vertices = {x0, inner_vertex(sampled->y), camera_[connection.t - 1].vertex};
   complete_assembled(connection);
   const PathTerms& terms = assembled_terms_;
   const double walked = terms[0].from_light * terms[1].from_light;

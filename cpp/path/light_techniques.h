@@ -120,14 +120,9 @@ void add_refracted_light(const Walker& walker, const PathRules& rules, const Sur
                          const LightSample& chosen, RefractedLight& refracted, const StepNumbers& u,
                          CameraWalk& walk, Watcher&& watcher = Watcher()) {
   const auto sampled = refracted.sample(u);
-  if (!sampled || !(sampled->pdf > 0)) return;
-  const auto& [w, pdf] = *sampled;
+  if (!sampled) return;
+  const auto& [w, pdf, y, leg] = *sampled;
   const Scene& scene = walker.scene;
-  SurfacePoint y;
-  Passage leg;
-  if (!walker.arrive(walker.leave(x, w), 0, y, leg) || !RefractedLight::ends_at(scene, y, w))
-    return;
-
   const WorldScattering at_x = BsdfAt(scene, x).scattering(w, -walk.ray.d, Lobe::smooth);
   const Arrival arrival = scene.arrival(leg, y, w).after(walk.likelihood);
   const double walked = at_x.pdf_from_camera * arrival.probability() / pdf;

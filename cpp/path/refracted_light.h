@@ -46,17 +46,26 @@ class RefractedLight {
 
   /// Whether a rough boundary lies between them, so that no light goes straight.
   bool exists() const { return exists_; }
-  struct Direction {
-    Vec3 w;      ///< From x.
-    double pdf;  ///< In solid angle.
+  /// Where a ray along a direction that is sampled ends.
+  struct Entrance {
+    Vec3 w;          ///< From x.
+    double pdf;      ///< Its density, in solid angle.
+    SurfacePoint y;  ///< On a boundary.
+    Passage leg;     ///< From x to y.
   };
   /// Samples a direction; often none where the boundary is far away.
-  std::optional<Direction> sample(const StepNumbers& u) {
+  std::optional<Entrance> sample(const StepNumbers& u) {
     if (!(u.roulette < share_)) return std::nullopt;
     come_closer();
     const auto scattered = BsdfAt(scene(), y_).sample(to_light(), u.for_scattering());
     if (!scattered || scattered->lobe != Lobe::smooth) return std::nullopt;
-    return Direction{-scattered->w, share_ * scattering_pdf(-scattered->w)};
+    Entrance found;
+    found.w = -scattered->w;
+    found.pdf = share_ * scattering_pdf(found.w);
+    const bool ends = found.pdf > 0 &&
+                      walker_->arrive(walker_->leave(*x_, found.w), 0, found.y, found.leg) &&
+                      ends_at(scene(), found.y, found.w);
+    return ends ? std::optional(found) : std::nullopt;
   }
   double pdf(const Vec3& w) {
     if (!exists_) return 0;
